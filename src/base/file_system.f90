@@ -1,0 +1,284 @@
+!> Directories and files: the few calls of the C library that Fortran lacks, and
+!! files that appear under their name only when they are complete.
+!!
+!! Each call returns the system's reason, '' when it succeeded.
+module file_system
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_null_char, &
+      c_null_funptr, c_ptr, c_size_t
+   use errors, only: exit_files, failure
+   use kinds, only: i8
+   implicit none
+   private
+
+   public :: delete_file, find_files, has_size, is_directory, is_writable, make_directory, partial_path, path_exists, &
+      publish, remove_directory, rename_file, write_whole_file
+
+   integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
+   character(*), parameter, public :: no_space = 'no space left on the disk'
+
+   integer(c_int), parameter :: mode_exists = 0, mode_write_search = 3   !! for access()
+   integer(c_int), parameter :: all_may_read = int(o'777', c_int)        !! less the user's umask
+
+   ! The head of the C library's glob_t (glibc and musl), with room for the rest.
+   type, bind(c) :: glob_result
+      integer(c_size_t) :: number = 0
+      type(c_ptr) :: paths
+      integer(c_size_t) :: rest(30) = 0
+   end type glob_result
+
+   interface
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
+
+      integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_rmdir
+
+      integer(c_int) function c_unlink(path) bind(c, name='unlink')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_unlink
+
+      integer(c_int) function c_rename(from, to) bind(c, name='rename')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function c_rename
+
+      integer(c_int) function c_access(path, mode) bind(c, name='access')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_access
+
+      type(c_ptr) function c_opendir(path) bind(c, name='opendir')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_opendir
+
+      integer(c_int) function c_closedir(handle) bind(c, name='closedir')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: handle
+      end function c_closedir
+
+      integer(c_int) function c_glob(pattern, flags, on_error, found) bind(c, name='glob')
+         import :: c_char, c_funptr, c_int, glob_result
+         character(kind=c_char), intent(in) :: pattern(*)
+         integer(c_int), value :: flags
+         type(c_funptr), value :: on_error
+         type(glob_result), intent(inout) :: found
+      end function c_glob
+
+      subroutine c_globfree(found) bind(c, name='globfree')
+         import :: glob_result
+         type(glob_result), intent(inout) :: found
+      end subroutine c_globfree
+
+      type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno_address
+
+      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
+         import :: c_int, c_ptr
+         integer(c_int), value :: number
+      end function c_strerror
+
+      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+      end function c_strlen
+   end interface
+
+contains
+
+   !> True when something of that name exists, whatever it is.
+   logical function path_exists(path)
+      character(*), intent(in) :: path
+
+      path_exists = c_access(c_text(path), mode_exists) == 0
+   end function path_exists
+
+   !> True for a directory that may be listed.
+   logical function is_directory(path)
+      character(*), intent(in) :: path
+      type(c_ptr) :: handle
+      integer(c_int) :: ignored
+
+      handle = c_opendir(c_text(path))
+      is_directory = c_associated(handle)
+      if (is_directory) ignored = c_closedir(handle)
+   end function is_directory
+
+   !> True for a directory in which this user may make files.
+   logical function is_writable(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_access(c_text(path), mode_write_search))
+      is_writable = len(reason) == 0
+   end function is_writable
+
+   !> Makes one directory; its parent must exist.
+   subroutine make_directory(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_mkdir(c_text(path), all_may_read))
+   end subroutine make_directory
+
+   !> Removes a directory if it is empty; fails, and changes nothing, otherwise.
+   subroutine remove_directory(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_rmdir(c_text(path)))
+   end subroutine remove_directory
+
+   !> Deletes one file; fails on a directory.
+   subroutine delete_file(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_unlink(c_text(path)))
+   end subroutine delete_file
+
+   !> Renames a file; one that had the new name is replaced in the same instant.
+   subroutine rename_file(from, to, reason)
+      character(*), intent(in) :: from, to
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_rename(c_text(from), c_text(to)))
+   end subroutine rename_file
+
+   !> The paths in a directory whose name matches a shell pattern, sorted.
+   subroutine find_files(directory, pattern, paths)
+      character(*), intent(in) :: directory
+      character(*), intent(in) :: pattern                            !! with * ? and [...]
+      character(longest_path), allocatable, intent(out) :: paths(:)  !! (number found)
+      type(glob_result) :: found
+      type(c_ptr), pointer :: list(:)
+      integer :: i
+
+      if (c_glob(c_text(literal(directory)//'/'//pattern), 0_c_int, c_null_funptr, found) /= 0) then
+         allocate (paths(0))
+         return
+      end if
+      call c_f_pointer(found%paths, list, [found%number])
+      allocate (paths(size(list)))
+      do i = 1, size(list)
+         paths(i) = fortran_text(list(i))
+      end do
+      call c_globfree(found)
+   end subroutine find_files
+
+   !> The name a file has while it is being written.
+   pure function partial_path(path) result(partial)
+      character(*), intent(in) :: path
+      character(:), allocatable :: partial
+
+      partial = path//'.partial'
+   end function partial_path
+
+   !> Gives a file written as `partial_path(path)` its name, replacing an earlier one.
+   subroutine publish(path, problem)
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: reason
+
+      call rename_file(partial_path(path), path, reason)
+      if (len(reason) > 0) call problem%raise(exit_files, "cannot rename '"//partial_path(path)//"' to '"//path//"': "//reason)
+   end subroutine publish
+
+   !> Writes a text as a whole file: complete under its name, or not there.
+   subroutine write_whole_file(path, text, problem)
+      character(*), intent(in) :: path
+      character(*), intent(in) :: text          !! with its own line ends
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: ignored
+      character(256) :: message
+      integer :: unit, status
+
+      open (newunit=unit, file=partial_path(path), access='stream', form='unformatted', status='replace', action='write', &
+         iostat=status, iomsg=message)
+      if (status == 0) then
+         write (unit, iostat=status, iomsg=message) text
+         if (status == 0) then
+            if (.not. has_size(unit, len(text, i8))) then
+               status = 1
+               message = no_space
+            end if
+         end if
+         close (unit)
+      end if
+      if (status == 0) then
+         call publish(path, problem)
+      else
+         call problem%raise(exit_files, "cannot write '"//path//"': "//trim(message))
+      end if
+      if (problem%raised()) call delete_file(partial_path(path), ignored)
+   end subroutine write_whole_file
+
+   !> True when the system has taken all bytes written to a unit; gfortran's FLUSH and CLOSE
+   !! keep a full disk to themselves.
+   logical function has_size(unit, bytes)
+      integer, intent(in) :: unit
+      integer(i8), intent(in) :: bytes   !! written so far
+      integer(i8) :: size_now
+      integer :: status
+
+      flush (unit, iostat=status)
+      inquire (unit=unit, size=size_now)
+      has_size = status == 0 .and. size_now >= bytes
+   end function has_size
+
+   !> The system's words for the call that returned this status; '' for success.
+   function reason_of(status) result(reason)
+      integer(c_int), intent(in) :: status
+      character(:), allocatable :: reason
+      integer(c_int), pointer :: number
+
+      if (status == 0) then
+         reason = ''
+         return
+      end if
+      call c_f_pointer(c_errno_address(), number)
+      reason = fortran_text(c_strerror(number))
+   end function reason_of
+
+   !> A path in which no character is special to glob().
+   pure function literal(path)
+      character(*), intent(in) :: path
+      character(:), allocatable :: literal
+      integer :: i
+
+      literal = ''
+      do i = 1, len_trim(path)
+         if (scan(path(i:i), '*?[]\') > 0) literal = literal//'\'
+         literal = literal//path(i:i)
+      end do
+   end function literal
+
+   pure function c_text(text)
+      character(*), intent(in) :: text
+      character(len_trim(text) + 1, kind=c_char) :: c_text
+
+      c_text = trim(text)//c_null_char
+   end function c_text
+
+   function fortran_text(address) result(text)
+      type(c_ptr), intent(in) :: address
+      character(:), allocatable :: text
+      character(kind=c_char), pointer :: bytes(:)
+      integer :: i
+
+      call c_f_pointer(address, bytes, [c_strlen(address)])
+      allocate (character(size(bytes)) :: text)
+      do i = 1, size(bytes)
+         text(i:i) = bytes(i)
+      end do
+   end function fortran_text
+
+end module file_system

@@ -1,0 +1,274 @@
+!> What a run tells its user: on the screen and in `run.log`.
+!!
+!! The module is not named `log`, which would hide the intrinsic function.
+module run_log
+   use, intrinsic :: iso_c_binding, only: c_int
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use errors, only: exit_files, failure
+   implicit none
+   private
+
+   public :: log_t
+
+   integer, parameter, public :: warnings_shown = 3   !! of each kind; further ones are only counted
+
+   integer, parameter :: no_unit = -1
+   integer, parameter :: widest_text = 512
+   character(*), parameter :: return_and_clear = achar(13)//achar(27)//'[K'
+   character(*), parameter :: wrap_off = achar(27)//'[?7l', wrap_on = achar(27)//'[?7h'
+
+   !> How often one kind of warning came, and its latest text.
+   type :: tally_t
+      character(:), allocatable :: key, latest
+      integer :: number = 0
+   end type tally_t
+
+   !> A log; usable before `open`, and after `close`, as a plain screen.
+   type :: log_t
+      private
+      integer :: unit = no_unit
+      logical :: quiet = .false.             !! nothing on standard output
+      logical :: terminal = .false.          !! standard output is a terminal
+      logical :: unicode = .false.           !! the user's locale is UTF-8
+      logical :: transient_shown = .false.   !! the cursor stands in a transient line
+      type(tally_t), allocatable :: tallies(:)
+   contains
+      procedure :: open => open_log
+      procedure :: line
+      procedure :: note
+      procedure :: transient
+      procedure :: box
+      procedure :: warn
+      procedure :: warning_count
+      procedure :: report_warnings
+      procedure :: close => close_log
+      procedure :: on_terminal
+   end type log_t
+
+   interface
+      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_isatty
+   end interface
+
+contains
+
+   !> Starts a log file; an earlier one of that name is replaced.
+   subroutine open_log(self, path, quiet, problem)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: path          !! '' for a log without a file
+      logical, intent(in) :: quiet              !! nothing on standard output; warnings go to standard error
+      type(failure), intent(inout) :: problem   !! exit_files: the file cannot be written
+      character(256) :: message
+      integer :: status
+
+      self%quiet = quiet
+      self%terminal = c_isatty(1_c_int) == 1
+      self%unicode = locale_is_utf8()
+      if (path == '') return
+      open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
+      if (status == 0) return
+      self%unit = no_unit
+      call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))
+   end subroutine open_log
+
+   !> Writes one line, or several separated by new_line, to the screen and the file.
+   subroutine line(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      if (.not. self%quiet) call to_screen(self, output_unit, text)
+      call to_file(self, text)
+   end subroutine line
+
+   !> Writes a line that a terminal need not keep: to the file, and to a screen that is none.
+   subroutine note(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      if (.not. (self%quiet .or. self%terminal)) call to_screen(self, output_unit, text)
+      call to_file(self, text)
+   end subroutine note
+
+   !> Shows a line, on a terminal only, that the next line of any kind replaces.
+   subroutine transient(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      if (self%quiet .or. .not. self%terminal) return
+      write (output_unit, '(a)', advance='no') return_and_clear//wrap_off//text//wrap_on
+      flush (output_unit)
+      self%transient_shown = .true.
+   end subroutine transient
+
+   !> Writes lines in a frame as wide as the widest of them, the title in its upper edge.
+   subroutine box(self, title, lines)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: title
+      character(*), intent(in) :: lines(:)   !! trailing blanks do not count
+      character(3) :: corners(4), dash, bar  !! one character each, up to three bytes
+      integer :: i, width
+
+      if (self%unicode) then
+         corners = ['┌', '┐', '└', '┘']
+         dash = '─'
+         bar = '│'
+      else
+         corners = '+'
+         dash = '-'
+         bar = '|'
+      end if
+      width = columns(title) + 2
+      do i = 1, size(lines)
+         width = max(width, columns(lines(i)))
+      end do
+      call self%line(trim(corners(1))//trim(dash)//' '//trim(title)//' '//repeat(trim(dash), width - columns(title) - 1)// &
+         trim(corners(2)))
+      do i = 1, size(lines)
+         call self%line(trim(bar)//' '//trim(lines(i))//repeat(' ', width - columns(lines(i)))//' '//trim(bar))
+      end do
+      call self%line(trim(corners(3))//repeat(trim(dash), width + 2)//trim(corners(4)))
+   end subroutine box
+
+   !> Counts a warning, and writes the first few of its kind.
+   subroutine warn(self, key, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: key    !! the kind: one or two words
+      character(*), intent(in) :: text
+      integer :: i
+
+      i = tally_index(self, key)
+      self%tallies(i)%number = self%tallies(i)%number + 1
+      self%tallies(i)%latest = text
+      if (self%tallies(i)%number > warnings_shown) return
+      call write_warning(self, 'warning: '//text)
+      if (self%tallies(i)%number == warnings_shown) &
+         call write_warning(self, "         (further warnings '"//key//"' are only counted)")
+   end subroutine warn
+
+   !> How often one kind of warning came so far.
+   pure integer function warning_count(self, key)
+      class(log_t), intent(in) :: self
+      character(*), intent(in) :: key
+      integer :: i
+
+      warning_count = 0
+      if (.not. allocated(self%tallies)) return
+      do i = 1, size(self%tallies)
+         if (self%tallies(i)%key == key) warning_count = self%tallies(i)%number
+      end do
+   end function warning_count
+
+   !> Writes how often each kind of warning came, with the latest of those not shown.
+   subroutine report_warnings(self)
+      class(log_t), intent(inout) :: self
+      character(widest_text) :: text
+      integer :: i
+
+      if (.not. allocated(self%tallies)) return
+      do i = 1, size(self%tallies)
+         associate (tally => self%tallies(i))
+            write (text, '(3a, i0, a)') "warning '", tally%key, "' came ", tally%number, ' times'
+            if (tally%number == 1) text = "warning '"//tally%key//"' came once"
+            if (tally%number > warnings_shown) text = trim(text)//'; the latest: '//tally%latest
+            call write_warning(self, trim(text))
+         end associate
+      end do
+   end subroutine report_warnings
+
+   subroutine close_log(self)
+      class(log_t), intent(inout) :: self
+
+      call clear_transient(self)
+      if (self%unit /= no_unit) close (self%unit)
+      self%unit = no_unit
+   end subroutine close_log
+
+   !> True when transient lines are shown.
+   pure logical function on_terminal(self)
+      class(log_t), intent(in) :: self
+
+      on_terminal = self%terminal .and. .not. self%quiet
+   end function on_terminal
+
+   !> A warning is shown even by a quiet run, but not on standard output.
+   subroutine write_warning(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      call to_screen(self, merge(error_unit, output_unit, self%quiet), text)
+      call to_file(self, text)
+   end subroutine write_warning
+
+   subroutine to_screen(self, unit, text)
+      class(log_t), intent(inout) :: self
+      integer, intent(in) :: unit
+      character(*), intent(in) :: text
+
+      call clear_transient(self)
+      write (unit, '(a)') text
+      flush (unit)
+   end subroutine to_screen
+
+   !> A log that cannot be written on (a full disk) does not end the run: its results will.
+   subroutine to_file(self, text)
+      class(log_t), intent(in) :: self
+      character(*), intent(in) :: text
+      integer :: ignored
+
+      if (self%unit == no_unit) return
+      write (self%unit, '(a)', iostat=ignored) text
+      flush (self%unit, iostat=ignored)
+   end subroutine to_file
+
+   subroutine clear_transient(self)
+      class(log_t), intent(inout) :: self
+
+      if (.not. self%transient_shown) return
+      write (output_unit, '(a)', advance='no') return_and_clear
+      flush (output_unit)
+      self%transient_shown = .false.
+   end subroutine clear_transient
+
+   !> The place of a kind of warning; a new kind gets a new one.
+   integer function tally_index(self, key) result(i)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: key
+      type(tally_t), allocatable :: longer(:)
+
+      if (.not. allocated(self%tallies)) allocate (self%tallies(0))
+      do i = 1, size(self%tallies)
+         if (self%tallies(i)%key == key) return
+      end do
+      allocate (longer(i))   ! gfortran 12 miscompiles array constructors of such types
+      longer(:i - 1) = self%tallies
+      longer(i)%key = key
+      call move_alloc(longer, self%tallies)
+   end function tally_index
+
+   !> Characters of a UTF-8 text without its trailing blanks: bytes that do not continue one.
+   pure integer function columns(text)
+      character(*), intent(in) :: text
+      integer :: i
+
+      columns = 0
+      do i = 1, len_trim(text)
+         if (iand(ichar(text(i:i)), 192) /= 128) columns = columns + 1
+      end do
+   end function columns
+
+   !> Whether the locale the user chose writes UTF-8; the first variable set decides, as in POSIX.
+   logical function locale_is_utf8()
+      character(*), parameter :: variables(3) = [character(8) :: 'LC_ALL', 'LC_CTYPE', 'LANG']
+      character(64) :: value
+      integer :: i
+
+      do i = 1, size(variables)
+         call get_environment_variable(trim(variables(i)), value)
+         if (value /= '') exit
+      end do
+      locale_is_utf8 = index(value, 'UTF-8') + index(value, 'utf8') + index(value, 'UTF8') + index(value, 'utf-8') > 0
+   end function locale_is_utf8
+
+end module run_log

@@ -1,0 +1,296 @@
+!> Small text helpers: numbers to and from text, lower case, and the nearest known word.
+module text
+   use kinds, only: dp, i8
+   implicit none
+   private
+
+   public :: to_text, parse_real, parse_integer, lower_case, quoted, nearest_word, edit_distance
+
+   integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
+   integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
+   integer, parameter :: full_digits = 17   ! enough to give every real(dp) back bit by bit
+
+   !> A number as text, without blanks; a real in the fewest digits that read back exactly.
+   interface to_text
+      module procedure integer_text, long_text, real_text, vector_text
+   end interface to_text
+
+contains
+
+   !> An integer as text.
+   pure function integer_text(number) result(text_of)
+      integer, intent(in) :: number
+      character(:), allocatable :: text_of
+
+      text_of = long_text(int(number, i8))
+   end function integer_text
+
+   !> A long integer as text.
+   pure function long_text(number) result(text_of)
+      integer(i8), intent(in) :: number
+      character(:), allocatable :: text_of
+
+      character(24) :: buffer
+
+      write (buffer, '(i0)') number
+      text_of = trim(buffer)
+   end function long_text
+
+   !> A real in the fewest significant digits that read back as the same number.
+   pure function real_text(number) result(text_of)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text_of
+
+      character(40) :: buffer
+      character(16) :: form
+      real(dp) :: again
+      integer :: digit_count, status
+
+      do digit_count = 1, full_digits
+         write (form, '(a, i0, a)') '(es40.', digit_count - 1, 'e3)'
+         write (buffer, form) number
+         read (buffer, *, iostat=status) again
+         if (status /= 0) exit
+         if (transfer(again, 0_i8) == transfer(number, 0_i8)) exit
+      end do
+      text_of = plain_notation(trim(adjustl(buffer)))
+   end function real_text
+
+   !> A vector as text, its numbers parted by commas.
+   pure function vector_text(numbers) result(text_of)
+      real(dp), intent(in) :: numbers(:)
+      character(:), allocatable :: text_of
+
+      integer :: i
+
+      text_of = ''
+      do i = 1, size(numbers)
+         if (i > 1) text_of = text_of//', '
+         text_of = text_of//real_text(numbers(i))
+      end do
+   end function vector_text
+
+   !> Turns '-1.25E-002' into '-0.0125' where that is as easy to read.
+   pure function plain_notation(scientific) result(plain)
+      character(*), intent(in) :: scientific   !! from an es edit descriptor
+      character(:), allocatable :: plain
+
+      integer, parameter :: least = -4, greatest = 6   ! exponents shown without an E
+      character(:), allocatable :: digit_string, sign_text
+      integer :: at_e, exponent_value, point, status
+
+      at_e = index(scientific, 'E')
+      plain = scientific
+      if (at_e == 0) return   ! NaN and Infinity have no exponent
+      read (scientific(at_e + 1:), *, iostat=status) exponent_value
+      if (status /= 0) return
+      sign_text = ''
+      digit_string = scientific(:at_e - 1)
+      if (digit_string(1:1) == '-') then
+         sign_text = '-'
+         digit_string = digit_string(2:)
+      end if
+      point = index(digit_string, '.')
+      if (exponent_value < least .or. exponent_value > greatest) then
+         if (point == len(digit_string)) digit_string = digit_string//'0'
+         plain = sign_text//digit_string//'e'//integer_text(exponent_value)
+         return
+      end if
+      digit_string = digit_string(:point - 1)//digit_string(point + 1:)
+      if (exponent_value < 0) then
+         plain = sign_text//'0.'//repeat('0', -exponent_value - 1)//digit_string
+      else
+         if (len(digit_string) < exponent_value + 2) then
+            digit_string = digit_string//repeat('0', exponent_value + 2 - len(digit_string))
+         end if
+         plain = sign_text//digit_string(:exponent_value + 1)//'.'//digit_string(exponent_value + 2:)
+      end if
+   end function plain_notation
+
+   !> Reads one real number and nothing else.
+   !! The form is checked first: a list-directed read would also take '1,5', '2*3', '1-5' or
+   !! 'nan'. So is the magnitude: converting 1e400 would stop a program that traps overflow.
+   pure subroutine parse_real(word, number, message)
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: number
+      character(:), allocatable, intent(out) :: message   !! '' when read, else why not
+
+      integer :: status
+
+      number = 0.0_dp
+      message = ''
+      if (.not. is_real_form(word)) then
+         message = quoted(word)//' is not a number'
+      else if (abs(decimal_exponent(word)) > largest_exponent) then
+         message = quoted(word)//' is beyond the range of numbers'
+      else
+         read (word, *, iostat=status) number
+         if (status /= 0) message = quoted(word)//' cannot be read as a number'
+      end if
+   end subroutine parse_real
+
+   !> Power of ten of the first digit of a real number that is not 0; 0 for zero.
+   pure integer function decimal_exponent(word)
+      character(*), intent(in) :: word   !! of a form that is_real_form accepts
+
+      character(:), allocatable :: message
+      integer :: first, mantissa_end, point
+
+      decimal_exponent = 0
+      mantissa_end = scan(word//'e', 'eEdD') - 1
+      first = scan(word(:mantissa_end), '123456789')
+      if (first == 0) return
+      if (mantissa_end < len(word)) then
+         call parse_integer(word(mantissa_end + 2:), decimal_exponent, message)
+         if (message /= '' .or. abs(decimal_exponent) > beyond) decimal_exponent = beyond
+      end if
+      point = index(word(:mantissa_end)//'.', '.')
+      decimal_exponent = decimal_exponent + point - first
+      if (first < point) decimal_exponent = decimal_exponent - 1
+   end function decimal_exponent
+
+   !> Reads one integer and nothing else.
+   pure subroutine parse_integer(word, number, message)
+      character(*), intent(in) :: word
+      integer, intent(out) :: number
+      character(:), allocatable, intent(out) :: message   !! '' when read, else why not
+
+      integer :: at, status
+
+      number = 0
+      at = 1
+      call skip_sign(word, at)
+      if (digit_run(word, at) == 0 .or. at + digit_run(word, at) <= len(word)) then
+         message = quoted(word)//' is not a whole number'
+         return
+      end if
+      read (word, *, iostat=status) number
+      message = ''
+      if (status /= 0) then
+         number = 0
+         message = quoted(word)//' is beyond the range of whole numbers'
+      end if
+   end subroutine parse_integer
+
+   !> True for [sign] digits with at most one point, then [e|d [sign] digits].
+   pure logical function is_real_form(word)
+      character(*), intent(in) :: word
+
+      integer :: at, count_of
+
+      is_real_form = .false.
+      at = 1
+      call skip_sign(word, at)
+      count_of = digit_run(word, at)
+      at = at + count_of
+      if (at <= len(word)) then
+         if (word(at:at) == '.') then
+            at = at + 1
+            count_of = count_of + digit_run(word, at)
+            at = at + digit_run(word, at)
+         end if
+      end if
+      if (count_of == 0) return
+      if (at <= len(word)) then
+         if (scan(word(at:at), 'eEdD') == 0) return
+         at = at + 1
+         call skip_sign(word, at)
+         if (digit_run(word, at) == 0) return
+         at = at + digit_run(word, at)
+      end if
+      is_real_form = at > len(word)
+   end function is_real_form
+
+   !> Steps over a sign.
+   pure subroutine skip_sign(word, at)
+      character(*), intent(in) :: word
+      integer, intent(inout) :: at
+
+      if (at > len(word)) return
+      if (scan(word(at:at), '+-') > 0) at = at + 1
+   end subroutine skip_sign
+
+   !> Number of digits that stand from a position on.
+   pure integer function digit_run(word, at)
+      character(*), intent(in) :: word
+      integer, intent(in) :: at
+
+      digit_run = 0
+      if (at > len(word)) return
+      digit_run = verify(word(at:), '0123456789') - 1
+      if (digit_run < 0) digit_run = len(word) - at + 1
+   end function digit_run
+
+   !> A text in single quotes, those inside doubled, as a namelist has it.
+   pure function quoted(word) result(in_quotes)
+      character(*), intent(in) :: word
+      character(:), allocatable :: in_quotes
+
+      integer :: i
+
+      in_quotes = "'"
+      do i = 1, len_trim(word)
+         in_quotes = in_quotes//word(i:i)
+         if (word(i:i) == "'") in_quotes = in_quotes//"'"
+      end do
+      in_quotes = in_quotes//"'"
+   end function quoted
+
+   !> The word in lower case.
+   pure function lower_case(word) result(lower)
+      character(*), intent(in) :: word
+      character(len(word)) :: lower
+
+      integer, parameter :: shift = iachar('a') - iachar('A')
+      integer :: i
+
+      lower = word
+      do i = 1, len(word)
+         if (word(i:i) >= 'A' .and. word(i:i) <= 'Z') lower(i:i) = achar(iachar(word(i:i)) + shift)
+      end do
+   end function lower_case
+
+   !> The known word most like the given one, or '' when none is close enough to be meant.
+   pure function nearest_word(word, known) result(nearest)
+      character(*), intent(in) :: word
+      character(*), intent(in) :: known(:)
+      character(:), allocatable :: nearest
+
+      integer :: distance, i, least
+
+      nearest = ''
+      least = max(1, len_trim(word)/3) + 1   ! one slip per three letters is still a slip
+      do i = 1, size(known)
+         distance = edit_distance(lower_case(trim(word)), lower_case(trim(known(i))))
+         if (distance < least) then
+            least = distance
+            nearest = trim(known(i))
+         end if
+      end do
+   end function nearest_word
+
+   !> Letters to insert, drop, change or swap with their neighbour to turn one word into the other.
+   pure integer function edit_distance(word, other)
+      character(*), intent(in) :: word
+      character(*), intent(in) :: other
+
+      integer :: row(0:len(word), 0:len(other))   ! row(i, j): the first i letters against the first j
+      integer :: changed, i, j
+
+      row(:, 0) = [(i, i=0, len(word))]
+      row(0, :) = [(j, j=0, len(other))]
+      do j = 1, len(other)
+         do i = 1, len(word)
+            changed = merge(0, 1, word(i:i) == other(j:j))
+            row(i, j) = min(row(i - 1, j) + 1, row(i, j - 1) + 1, row(i - 1, j - 1) + changed)
+            if (i > 1 .and. j > 1) then
+               if (word(i:i) == other(j - 1:j - 1) .and. word(i - 1:i - 1) == other(j:j)) then
+                  row(i, j) = min(row(i, j), row(max(i, 2) - 2, max(j, 2) - 2) + 1)
+               end if
+            end if
+         end do
+      end do
+      edit_distance = row(len(word), len(other))
+   end function edit_distance
+
+end module text

@@ -1,0 +1,93 @@
+!> The energy budget over a run: normaliser, balance error and milestones.
+!!
+!! Source: sec. 5 of the paper. Energies are normalised by Delta E_Mtot, what the fluid can lose until it rests;
+!! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls' images gave.
+module budget
+   use energy, only: energies_t, measure_energies
+   use images, only: bottom_wall, left_wall, right_wall
+   use kinds, only: dp
+   use model, only: model_t
+   use particles, only: particles_t
+   use rest_state, only: rest_energies
+   implicit none
+   private
+
+   public :: budget_t, start_budget, update_budget, fluid_mass
+
+   !> Where the energy is and has gone.
+   type :: budget_t
+      type(energies_t) :: initial
+      type(energies_t) :: rest               !! 0 where the scene has no tank that it could rest in
+      logical :: has_rest = .false.
+      real(dp) :: normaliser = 1             !! Delta E_Mtot, or E_M(0) without a tank
+      type(energies_t) :: now
+      real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
+      real(dp) :: w_s = 0                    !! work of the walls' images
+      real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
+      real(dp) :: largest_error = 0          !! largest |balance_error| so far
+      real(dp) :: peak_time(4) = 0           !! first kinetic, potential, second kinetic, elastic maximum
+      real(dp), private :: peak(4) = -huge(1.0_dp)
+   end type budget_t
+
+contains
+
+   !> Sum of all masses.
+   pure real(dp) function fluid_mass(p) result(mass)
+      type(particles_t), intent(in) :: p
+
+      mass = sum(p%m(1:p%n_own))
+   end function fluid_mass
+
+   !> Takes the initial energies and the rest state's.
+   subroutine start_budget(self, model, p, width)
+      type(budget_t), intent(out) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: width   !! of the tank
+      real(dp), parameter :: least_share = 1.0e-3_dp
+      real(dp) :: mass
+
+      call measure_energies(model, p, self%initial)
+      self%now = self%initial
+      self%has_rest = model%gravity > 0 .and. all(model%walls%present([left_wall, right_wall, bottom_wall]))
+      self%normaliser = self%initial%total()
+      if (self%has_rest) then
+         mass = fluid_mass(p)
+         call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
+         self%rest%potential = self%rest%potential + mass*model%gravity*model%walls%at(bottom_wall)
+         ! Fluid that rests already has nothing to lose that could be a measure.
+         if (self%initial%total() - self%rest%total() > least_share*abs(self%initial%total())) &
+            self%normaliser = self%initial%total() - self%rest%total()
+      end if
+      if (.not. abs(self%normaliser) > 0) self%normaliser = 1
+   end subroutine start_budget
+
+   !> Energies and balance of the base state.
+   subroutine update_budget(self, model, p, time, work_alpha, work_delta, work_walls)
+      type(budget_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: time
+      real(dp), intent(in) :: work_alpha, work_delta, work_walls   !! given to the fluid since t = 0
+      integer :: k
+
+      call measure_energies(model, p, self%now)
+      self%q_alpha = -work_alpha
+      self%q_delta = -work_delta
+      self%w_s = work_walls
+      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%initial%total())/self%normaliser
+      self%largest_error = max(self%largest_error, abs(self%balance_error))
+      ! Each maximum counts from the one before it on, so a new earlier one restarts the later ones.
+      associate (values => [self%now%kinetic, self%now%potential, self%now%kinetic, self%now%elastic])
+         do k = 1, 4
+            if (values(k) > self%peak(k)) then
+               self%peak(k) = values(k)
+               self%peak_time(k) = time
+               self%peak(k + 1:) = -huge(1.0_dp)
+               exit
+            end if
+         end do
+      end associate
+   end subroutine update_budget
+
+end module budget

@@ -1,0 +1,178 @@
+!> Reads a scene, and writes the complete input, a template or the list of keys.
+module scene_input
+   use errors, only: exit_files, exit_input, failure
+   use key_reader, only: key_reader_t
+   use key_writer, only: as_echo, as_tables, as_template, key_writer_t
+   use namelist_text, only: scan_namelist
+   use override_keys, only: apply_override
+   use scene_keys, only: visit_keys
+   use settings, only: settings_t
+   use settings_check, only: check_settings, resolve_sound_speed
+   use text, only: to_text
+   implicit none
+   private
+
+   public :: read_settings, read_settings_text
+   public :: write_echo, echo_text, write_template, write_markdown
+
+contains
+
+   !> Reads a scene from a namelist file.
+   !! Raises exit_files if the file cannot be read, exit_input with all mistakes in it.
+   subroutine read_settings(path, overrides, setup, warnings, problem)
+      character(*), intent(in) :: path
+      character(*), intent(in) :: overrides(:)        !! 'group.key=value', later ones win
+      type(settings_t), intent(out) :: setup
+      character(:), allocatable, intent(out) :: warnings(:)
+      type(failure), intent(inout) :: problem
+
+      character(:), allocatable :: content, message
+
+      call load_file(path, content, message)
+      if (message /= '') then
+         allocate (character(1) :: warnings(0))
+         allocate (setup%bodies(0), setup%probes(0))
+         call problem%raise(exit_files, path//': '//message)
+         return
+      end if
+      call read_settings_text(content, path, overrides, setup, warnings, problem)
+   end subroutine read_settings
+
+   !> Reads a scene from namelist text.
+   !! Raises exit_input with all mistakes in it.
+   subroutine read_settings_text(content, file, overrides, setup, warnings, problem)
+      character(*), intent(in) :: content
+      character(*), intent(in) :: file                !! name for messages
+      character(*), intent(in) :: overrides(:)
+      type(settings_t), intent(out) :: setup
+      character(:), allocatable, intent(out) :: warnings(:)
+      type(failure), intent(inout) :: problem
+
+      type(key_reader_t) :: reader
+      integer :: i
+
+      call scan_namelist(content, file, reader%document, reader%notes)
+      do i = 1, size(overrides)
+         call apply_override(overrides(i), reader%document, reader%notes)
+      end do
+      allocate (setup%bodies(reader%document%count_of('body')))
+      allocate (setup%probes(reader%document%count_of('probe')))
+      call visit_keys(reader, setup)
+      call reader%finish()
+      call resolve_sound_speed(reader%document, setup, reader%notes)
+      call check_settings(reader%document, setup, reader%notes)
+      call reader%notes%warning_list(warnings)
+      if (reader%notes%any_mistake()) call problem%raise(exit_input, reader%notes%mistake_text())
+   end subroutine read_settings_text
+
+   !> Writes the complete input of a run; reading it gives the same settings bit by bit.
+   subroutine write_echo(unit, setup)
+      integer, intent(in) :: unit
+      type(settings_t), intent(in) :: setup
+
+      type(key_writer_t) :: writer
+      type(settings_t) :: copy
+
+      copy = setup
+      writer%unit = unit
+      writer%style = as_echo
+      write (unit, '(a)') '! The complete input of this run, with the defaults it used.'
+      if (copy%fluid%mach > 0) then
+         ! Both keys at once would contradict each other when this file is read.
+         write (unit, '(a)') '! sound_speed = '//to_text(copy%fluid%sound_speed)//' follows from mach and reference_speed.'
+         copy%fluid%sound_speed = 0
+      end if
+      call visit_keys(writer, copy)
+   end subroutine write_echo
+
+   !> The same as one text, lines ended by new_line.
+   function echo_text(setup) result(content)
+      type(settings_t), intent(in) :: setup
+      character(:), allocatable :: content
+
+      character(512) :: line
+      integer :: unit, status
+
+      content = ''
+      open (newunit=unit, status='scratch', action='readwrite')
+      call write_echo(unit, setup)
+      rewind (unit)
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         content = content//trim(line)//new_line('a')
+      end do
+      close (unit)
+   end function echo_text
+
+   !> Writes a namelist of all keys with default, unit, range and meaning.
+   subroutine write_template(unit)
+      integer, intent(in) :: unit
+
+      type(key_writer_t) :: writer
+
+      writer%unit = unit
+      writer%style = as_template
+      write (unit, '(a)') '! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.', &
+         '! Units are SI or any other consistent set, such as d = g = density = 1.'
+      call visit_defaults(writer)
+   end subroutine write_template
+
+   !> Writes the list of all keys as Markdown, docs/input.md.
+   subroutine write_markdown(unit)
+      integer, intent(in) :: unit
+
+      type(key_writer_t) :: writer
+
+      writer%unit = unit
+      writer%style = as_tables
+      write (unit, '(a)') '# Input keys', '', &
+         'This page is written by the program itself: `dynsph --keys > docs/input.md`.', '', &
+         'A scene is a namelist file; `dynsph --template` prints one to fill in. Units are SI or any other consistent set,', &
+         'such as d = g = density = 1, in which times are t sqrt(g/d). `--set group.key=value` on the command line goes', &
+         'before the file; `body(2).key` means the second &body.'
+      call visit_defaults(writer)
+   end subroutine write_markdown
+
+   !> Shows all keys with their defaults, one body and one probe.
+   subroutine visit_defaults(writer)
+      type(key_writer_t), intent(inout) :: writer
+
+      type(settings_t) :: defaults
+
+      allocate (defaults%bodies(1), defaults%probes(1))
+      call visit_keys(writer, defaults)
+   end subroutine visit_defaults
+
+   !> Reads a whole file.
+   subroutine load_file(path, content, message)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: content
+      character(:), allocatable, intent(out) :: message   !! '' when read, else why not and what to do
+
+      integer :: length, status, unit
+      logical :: there
+
+      message = ''
+      content = ''
+      inquire (file=path, exist=there)
+      if (.not. there) then
+         message = 'there is no such file; give the path of a scene, for example input/dam_break.nml'
+         return
+      end if
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
+      if (status == 0) then
+         inquire (unit=unit, size=length)
+         if (length >= 0) then
+            deallocate (content)
+            allocate (character(length) :: content)
+            if (length > 0) read (unit, iostat=status) content
+         else
+            status = 1
+         end if
+         close (unit)
+      end if
+      if (status /= 0) message = 'the file cannot be read; is it a text file that you may read?'
+   end subroutine load_file
+
+end module scene_input

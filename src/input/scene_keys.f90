@@ -1,0 +1,182 @@
+!> The one description of all input keys: name, default, range, unit, meaning.
+!!
+!! A key's default is the initial value of its component in module `settings`.
+module scene_keys
+   use key_visitor, only: above, any_number, at_least, between, key_visitor_t
+   use kinds, only: dp
+   use settings, only: body_settings, choice_length, domain_settings, fluid_settings, model_settings, name_length, &
+                       output_settings, probe_settings, scene_settings, settings_t, time_settings
+   implicit none
+   private
+
+   public :: visit_keys, field_names
+
+   !> Least and largest d/dx: coarser has no meaning, finer surely is a slip.
+   real(dp), parameter, public :: resolution_range(2) = [4.0_dp, 20000.0_dp]
+
+   !> Largest Mach number that still may be called weakly compressible.
+   real(dp), parameter, public :: largest_mach = 0.5_dp
+
+   character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'open']
+
+   !> What snapshots can hold.
+   character(name_length), parameter :: field_names(*) = &
+      [character(name_length) :: 'velocity', 'pressure', 'density']
+
+contains
+
+   !> Shows all groups and keys to a visitor, which may change their values.
+   subroutine visit_keys(keys, setup)
+      class(key_visitor_t), intent(inout) :: keys
+      type(settings_t), intent(inout) :: setup   !! bodies and probes are allocated: one visit each
+
+      integer :: i
+
+      call keys%announce('scene', 'What the scene is called and how fine it is.', .true., .false.)
+      call visit_scene(keys, setup%scene)
+      call keys%announce('domain', 'The box the fluid moves in; its sides are walls or open.', .true., .false.)
+      call visit_domain(keys, setup%domain)
+      call keys%announce('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.)
+      call visit_fluid(keys, setup%fluid)
+      call keys%announce('body', 'A block of fluid at the start.', .true., .true.)
+      do i = 1, size(setup%bodies)
+         call visit_body(keys, setup%bodies(i), i)
+      end do
+      call keys%announce('model', 'The diffusive terms.', .false., .false.)
+      call visit_model(keys, setup%model)
+      call keys%announce('time', 'The time step and the end of the run.', .true., .false.)
+      call visit_time(keys, setup%time)
+      call keys%announce('output', "What is written and how often: '10 steps', '0.05 time' or 'never'.", .false., .false.)
+      call visit_output(keys, setup%output)
+      call keys%announce('probe', 'A pressure sensor on a wall.', .false., .true.)
+      do i = 1, size(setup%probes)
+         call visit_probe(keys, setup%probes(i), i)
+      end do
+   end subroutine visit_keys
+
+   !> Keys of &scene.
+   subroutine visit_scene(keys, scene)
+      class(key_visitor_t), intent(inout) :: keys
+      type(scene_settings), intent(inout) :: scene
+
+      call keys%enter('scene', 1)
+      call keys%text_key('title', scene%title, 'What the run calls itself in its output.')
+      call keys%real_key('reference_length', scene%reference_length, above(0.0_dp), 'm', &
+                         'Depth d that the resolution refers to.')
+      call keys%real_key('resolution', scene%resolution, between(resolution_range(1), resolution_range(2)), '-', &
+                         'Particles per reference length, d/dx.', required=.true.)
+      call keys%leave()
+   end subroutine visit_scene
+
+   !> Keys of &domain.
+   subroutine visit_domain(keys, domain)
+      class(key_visitor_t), intent(inout) :: keys
+      type(domain_settings), intent(inout) :: domain
+
+      call keys%enter('domain', 1)
+      call keys%vector_key('lower', domain%lower, any_number(), 'm', 'Lower left corner of the box, x and y.')
+      call keys%vector_key('upper', domain%upper, any_number(), 'm', &
+                           'Upper right corner; need not be a multiple of dx.', required=.true.)
+      call keys%choice_key('left', domain%left, side_choices, 'What the side at the least x is.')
+      call keys%choice_key('right', domain%right, side_choices, 'What the side at the largest x is.')
+      call keys%choice_key('bottom', domain%bottom, side_choices, 'What the side at the least y is.')
+      call keys%choice_key('top', domain%top, side_choices, 'What the side at the largest y is.')
+      call keys%choice_key('images', domain%images, [character(choice_length) :: 'hydrostatic', 'mirror'], &
+                           'Density of the mirror images: with the hydrostatic difference, or copied.')
+      call keys%leave()
+   end subroutine visit_domain
+
+   !> Keys of &fluid.
+   subroutine visit_fluid(keys, fluid)
+      class(key_visitor_t), intent(inout) :: keys
+      type(fluid_settings), intent(inout) :: fluid
+
+      call keys%enter('fluid', 1)
+      call keys%real_key('density', fluid%density, above(0.0_dp), 'kg/m3', 'Density at zero pressure.')
+      call keys%real_key('gravity', fluid%gravity, at_least(0.0_dp), 'm/s2', 'Gravity, which acts along -y.')
+      call keys%real_key('mach', fluid%mach, between(0.0_dp, largest_mach), '-', &
+                         'Mach number of reference_speed; above 0.1 the fluid is too compressible. 0: not given.')
+      call keys%real_key('reference_speed', fluid%reference_speed, at_least(0.0_dp), 'm/s', &
+                         'Largest speed expected; sound_speed = reference_speed/mach. 0: not given.')
+      call keys%real_key('sound_speed', fluid%sound_speed, at_least(0.0_dp), 'm/s', &
+                         'Sound speed, instead of mach. 0: not given.')
+      call keys%real_key('viscosity', fluid%viscosity, at_least(0.0_dp), 'Pa s', &
+                         'Dynamic viscosity; acts in addition to alpha.')
+      call keys%leave()
+   end subroutine visit_fluid
+
+   !> Keys of one &body.
+   subroutine visit_body(keys, body, number)
+      class(key_visitor_t), intent(inout) :: keys
+      type(body_settings), intent(inout) :: body
+      integer, intent(in) :: number
+
+      call keys%enter('body', number)
+      call keys%choice_key('shape', body%shape, [character(choice_length) :: 'rectangle'], 'Shape of the block.')
+      call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner, x and y.', required=.true.)
+      call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner, x and y.', required=.true.)
+      call keys%vector_key('velocity', body%velocity, any_number(), 'm/s', 'Velocity at the start, x and y.')
+      call keys%choice_key('pressure', body%pressure, &
+                           [character(choice_length) :: 'hydrostatic', 'incompressible', 'zero'], &
+                           'Pressure at the start; incompressible: of a column that has just lost its gate.')
+      call keys%leave()
+   end subroutine visit_body
+
+   !> Keys of &model.
+   subroutine visit_model(keys, model)
+      class(key_visitor_t), intent(inout) :: keys
+      type(model_settings), intent(inout) :: model
+
+      call keys%enter('model', 1)
+      call keys%choice_key('diffusion', model%diffusion, [character(choice_length) :: 'constant'], &
+                           'How alpha and delta are chosen: the same everywhere.')
+      call keys%real_key('alpha', model%alpha, at_least(0.0_dp), '-', 'Coefficient of the viscous term.')
+      call keys%real_key('delta', model%delta, at_least(0.0_dp), '-', 'Coefficient of the density diffusion.')
+      call keys%leave()
+   end subroutine visit_model
+
+   !> Keys of &time.
+   subroutine visit_time(keys, time)
+      class(key_visitor_t), intent(inout) :: keys
+      type(time_settings), intent(inout) :: time
+
+      call keys%enter('time', 1)
+      call keys%real_key('cfl', time%cfl, above(0.0_dp), '-', &
+                         'Time step as a multiple of h/(c0 + h max|pi|); stable up to min(2.49, 0.294/delta, 0.932/alpha).')
+      call keys%real_key('end_time', time%end_time, above(0.0_dp), 's', 'Time at which the run ends.', required=.true.)
+      call keys%integer_key('max_steps', time%max_steps, at_least(0.0_dp), '-', &
+                            'Number of steps after which the run ends early. 0: no limit.')
+      call keys%real_key('max_wall_time', time%max_wall_time, at_least(0.0_dp), 's', &
+                         'Seconds of the clock on the wall after which the run ends early. 0: no limit.')
+      call keys%leave()
+   end subroutine visit_time
+
+   !> Keys of &output.
+   subroutine visit_output(keys, output)
+      class(key_visitor_t), intent(inout) :: keys
+      type(output_settings), intent(inout) :: output
+
+      call keys%enter('output', 1)
+      call keys%text_key('energy', output%energy, 'How often a line of the energy table is written.')
+      call keys%text_key('probes', output%probes, 'How often a line of the probe table is written.')
+      call keys%text_key('snapshots', output%snapshots, 'How often all particles are written.')
+      call keys%list_key('fields', output%fields, output%n_fields, field_names, 'What snapshots hold.')
+      call keys%choice_key('precision', output%precision, [character(8) :: 'single', 'double'], &
+                           'Precision of the fields in snapshots.')
+      call keys%leave()
+   end subroutine visit_output
+
+   !> Keys of one &probe.
+   subroutine visit_probe(keys, probe, number)
+      class(key_visitor_t), intent(inout) :: keys
+      type(probe_settings), intent(inout) :: probe
+      integer, intent(in) :: number
+
+      call keys%enter('probe', number)
+      call keys%text_key('name', probe%name, 'Name of its column: letters, digits, _ and -.', required=.true.)
+      call keys%vector_key('position', probe%position, any_number(), 'm', 'Its centre on a wall, x and y.', required=.true.)
+      call keys%real_key('diameter', probe%diameter, at_least(0.0_dp), 'm', 'Diameter of its disc. 0: a point.')
+      call keys%leave()
+   end subroutine visit_probe
+
+end module scene_keys

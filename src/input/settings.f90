@@ -1,0 +1,143 @@
+!> What a scene consists of: one type per namelist group, and all of them together.
+!!
+!! The initial values below are the defaults of the input keys; module
+!! `scene_keys` adds unit, range and meaning to each and calls some required.
+module settings
+   use kinds, only: dp
+   implicit none
+   private
+
+   public :: settings_t, scene_settings, domain_settings, fluid_settings, body_settings
+   public :: model_settings, time_settings, output_settings, probe_settings
+   public :: is_wall
+
+   integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
+   integer, parameter, public :: title_length = 120    !! characters of a scene's title
+   integer, parameter, public :: name_length = 32      !! characters of names and cadences
+   integer, parameter, public :: choice_length = 16    !! characters of a choice
+
+   real(dp), parameter :: smoothing_ratio = 2.0_dp     ! h/dx, fixed by the scheme
+
+   !> &scene: what it is called and how fine it is.
+   type :: scene_settings
+      character(title_length) :: title = ''
+      real(dp) :: reference_length = 1.0_dp   !! depth d [m]
+      real(dp) :: resolution = 0.0_dp         !! d/dx [-]
+   end type scene_settings
+
+   !> &domain: the box and what its four sides are.
+   type :: domain_settings
+      real(dp) :: lower(2) = [0.0_dp, 0.0_dp]   !! lower left corner [m]
+      real(dp) :: upper(2) = [0.0_dp, 0.0_dp]   !! upper right corner [m]
+      character(choice_length) :: left = 'free_slip'
+      character(choice_length) :: right = 'free_slip'
+      character(choice_length) :: bottom = 'free_slip'
+      character(choice_length) :: top = 'open'
+      character(choice_length) :: images = 'hydrostatic'   !! density of mirror images
+   end type domain_settings
+
+   !> &fluid: its constants; after reading, `sound_speed` is the one used.
+   type :: fluid_settings
+      real(dp) :: density = 1.0_dp           !! rho0, at zero pressure [kg/m3]
+      real(dp) :: gravity = 1.0_dp           !! acts along -y [m/s2]
+      real(dp) :: mach = 0.0_dp              !! 0: sound_speed was given instead [-]
+      real(dp) :: reference_speed = 0.0_dp   !! U_ref; 0: not given [m/s]
+      real(dp) :: sound_speed = 0.0_dp       !! c0 [m/s]
+      real(dp) :: viscosity = 0.0_dp         !! dynamic viscosity mu [Pa s]
+   end type fluid_settings
+
+   !> &body: a block of fluid at t = 0.
+   type :: body_settings
+      character(choice_length) :: shape = 'rectangle'
+      real(dp) :: lower(2) = [0.0_dp, 0.0_dp]      !! lower left corner [m]
+      real(dp) :: upper(2) = [0.0_dp, 0.0_dp]      !! upper right corner [m]
+      real(dp) :: velocity(2) = [0.0_dp, 0.0_dp]   !! [m/s]
+      character(choice_length) :: pressure = 'hydrostatic'
+   end type body_settings
+
+   !> &model: the diffusive terms.
+   type :: model_settings
+      character(choice_length) :: diffusion = 'constant'
+      real(dp) :: alpha = 0.01_dp   !! of the viscous term [-]
+      real(dp) :: delta = 0.1_dp    !! of the density diffusion [-]
+   end type model_settings
+
+   !> &time: the step and the end of the run.
+   type :: time_settings
+      real(dp) :: cfl = 1.5_dp             !! dt (c0 + h max|pi|)/h [-]
+      real(dp) :: end_time = 0.0_dp        !! [s]
+      integer :: max_steps = 0             !! 0: no limit
+      real(dp) :: max_wall_time = 0.0_dp   !! 0: no limit [s of the clock on the wall]
+   end type time_settings
+
+   !> &output: what is written and how often; cadences are read by module `cadence`.
+   type :: output_settings
+      character(name_length) :: energy = '10 steps'
+      character(name_length) :: probes = '1 steps'
+      character(name_length) :: snapshots = '1 time'
+      character(name_length) :: fields(max_fields) = &
+         [character(name_length) :: 'velocity', 'pressure', '', '', '', '', '', '', '', '', '', '']
+      integer :: n_fields = 2              !! entries of `fields` in use
+      character(8) :: precision = 'single'
+   end type output_settings
+
+   !> &probe: a pressure sensor on a wall.
+   type :: probe_settings
+      character(name_length) :: name = ''
+      real(dp) :: position(2) = [0.0_dp, 0.0_dp]   !! centre, on a wall [m]
+      real(dp) :: diameter = 0.0_dp                !! of its disc; 0: a point [m]
+   end type probe_settings
+
+   !> Everything a run needs to know.
+   type :: settings_t
+      type(scene_settings) :: scene
+      type(domain_settings) :: domain
+      type(fluid_settings) :: fluid
+      type(model_settings) :: model
+      type(time_settings) :: time
+      type(output_settings) :: output
+      type(body_settings), allocatable :: bodies(:)
+      type(probe_settings), allocatable :: probes(:)
+   contains
+      procedure :: spacing => particle_spacing
+      procedure :: smoothing_length
+      procedure :: alpha_total
+   end type settings_t
+
+contains
+
+   !> Initial particle spacing dx = d/resolution [m].
+   pure real(dp) function particle_spacing(self)
+      class(settings_t), intent(in) :: self
+
+      particle_spacing = self%scene%reference_length/self%scene%resolution
+   end function particle_spacing
+
+   !> Smoothing length h = 2 dx [m]. Source: Sec. 2 of the paper.
+   pure real(dp) function smoothing_length(self)
+      class(settings_t), intent(in) :: self
+
+      smoothing_length = smoothing_ratio*self%spacing()
+   end function smoothing_length
+
+   !> The alpha that acts: the model's and the fluid's viscosity together [-].
+   !! Source: eq. 17, mu = alpha h c0 rho0/K with K = 8 in two dimensions.
+   pure real(dp) function alpha_total(self)
+      class(settings_t), intent(in) :: self
+
+      real(dp), parameter :: k_2d = 8.0_dp
+
+      associate (fluid => self%fluid)
+         alpha_total = self%model%alpha &
+                       + k_2d*fluid%viscosity/(fluid%sound_speed*self%smoothing_length()*fluid%density)
+      end associate
+   end function alpha_total
+
+   !> True for a side of the box that holds the fluid back.
+   elemental logical function is_wall(side)
+      character(*), intent(in) :: side   !! one of &domain left, right, bottom, top
+
+      is_wall = side /= 'open'
+   end function is_wall
+
+end module settings

@@ -1,0 +1,291 @@
+!> HDF5 files that appear under their name only when they are complete.
+!!
+!! A failing call of the library is remembered and makes the later ones do nothing;
+!! `finish` turns it into a failure. So the callers read as what they write.
+module hdf5_writer
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
+   use, intrinsic :: iso_fortran_env, only: int8
+   use errors, only: exit_files, failure
+   use file_system, only: delete_file, partial_path, publish
+   use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dwrite_f, h5eset_auto_f, &
+      h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
+      h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
+      h5t_std_u8le, h5t_str_nullpad_f, h5t_string, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f, &
+      h5t_fortran_s1, hid_t, hsize_t
+   use kinds, only: dp, i8, sp
+   implicit none
+   private
+
+   public :: hdf5_writer_t
+
+   logical, save :: library_open = .false.   !! the library's own state; opening it twice leaks its types
+
+   !> A file that is being written.
+   type :: hdf5_writer_t
+      private
+      integer(hid_t) :: file = -1
+      logical :: failed = .false.
+      character(:), allocatable :: path, failed_at
+   contains
+      procedure :: create
+      procedure :: make_group
+      procedure :: put_reals
+      procedure :: put_vectors
+      procedure :: put_integers
+      procedure :: put_longs
+      procedure :: put_bytes
+      procedure :: put_label
+      procedure, private :: attach_text, attach_real, attach_integers
+      generic :: attach => attach_text, attach_real, attach_integers
+      procedure :: finish
+   end type hdf5_writer_t
+
+contains
+
+   !> Starts a file under its temporary name.
+   subroutine create(self, path)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      integer :: status
+
+      self%path = trim(path)
+      self%failed = .false.
+      if (.not. library_open) then
+         call h5open_f(status)
+         call note(self, status, 'the HDF5 library')
+         library_open = .not. self%failed
+      end if
+      call h5eset_auto_f(0, status)   ! its own words on standard error would come before ours
+      call h5fcreate_f(partial_path(self%path), h5f_acc_trunc_f, self%file, status)
+      call note(self, status, 'the file')
+   end subroutine create
+
+   !> Makes a group; its parent must exist.
+   subroutine make_group(self, name)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name   !! with all its parents
+      integer(hid_t) :: group
+      integer :: status
+
+      if (self%failed) return
+      call h5gcreate_f(self%file, name, group, status)
+      call note(self, status, name)
+      if (status >= 0) call h5gclose_f(group, status)
+   end subroutine make_group
+
+   !> Writes a real array in single or double precision.
+   subroutine put_reals(self, name, values, single)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(dp), intent(in), contiguous, target :: values(:)   !! (n)
+      logical, intent(in) :: single
+      real(sp), allocatable, target :: rounded(:)
+
+      if (single) then
+         rounded = real(values, sp)
+         call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(rounded))
+      else
+         call put(self, name, h5t_native_double, shape(values, hsize_t), c_loc(values))
+      end if
+   end subroutine put_reals
+
+   !> Writes plane vectors as an array of n rows with three components, the third zero.
+   subroutine put_vectors(self, name, x, y, single)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: x(:), y(:)   !! (n) each
+      logical, intent(in) :: single
+      real(sp), allocatable, target :: rounded(:, :)
+      real(dp), allocatable, target :: rows(:, :)
+      integer(hsize_t) :: extent(2)
+      integer :: i
+
+      extent = [3_hsize_t, size(x, kind=hsize_t)]   ! Fortran's order; n by 3 for everyone else
+      if (single) then
+         allocate (rounded(3, size(x)))
+         do i = 1, size(x)
+            rounded(:, i) = [real(x(i), sp), real(y(i), sp), 0.0_sp]
+         end do
+         call put(self, name, h5t_native_real, extent, c_loc(rounded))
+      else
+         allocate (rows(3, size(x)))
+         do i = 1, size(x)
+            rows(:, i) = [x(i), y(i), 0.0_dp]
+         end do
+         call put(self, name, h5t_native_double, extent, c_loc(rows))
+      end if
+   end subroutine put_vectors
+
+   subroutine put_integers(self, name, values)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer, intent(in), contiguous, target :: values(:)   !! (n)
+
+      call put(self, name, h5t_native_integer, shape(values, hsize_t), c_loc(values))
+   end subroutine put_integers
+
+   subroutine put_longs(self, name, values)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer(i8), intent(in), contiguous, target :: values(:)   !! (n)
+
+      call put(self, name, h5t_std_i64le, shape(values, hsize_t), c_loc(values))
+   end subroutine put_longs
+
+   !> Writes small numbers as unsigned bytes.
+   subroutine put_bytes(self, name, values)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer(int8), intent(in), contiguous, target :: values(:)   !! (n) 0 to 127
+
+      call put(self, name, h5t_std_u8le, shape(values, hsize_t), c_loc(values))
+   end subroutine put_bytes
+
+   !> Attaches a text of fixed length, as VTK's reader wants it; h5py shows it as bytes.
+   subroutine put_label(self, owner, name, value)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner, name, value
+      character(kind=c_char), target :: bytes(len(value))
+      integer(hid_t) :: string
+      integer :: i, status
+
+      if (self%failed) return
+      bytes = [(value(i:i), i=1, len(value))]
+      call h5tcopy_f(h5t_fortran_s1, string, status)
+      call h5tset_size_f(string, len(value, kind(0_hsize_t)), status)
+      call h5tset_strpad_f(string, h5t_str_nullpad_f, status)
+      call put_attribute(self, owner, name, string, [integer(hsize_t) ::], c_loc(bytes))
+      call h5tclose_f(string, status)
+   end subroutine put_label
+
+   !> Attaches a UTF-8 text of any length.
+   subroutine attach_text(self, owner, name, value)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner   !! a group or dataset
+      character(*), intent(in) :: name, value
+      character(kind=c_char), allocatable, target :: bytes(:)
+      type(c_ptr), target :: address(1)
+      integer(hid_t) :: string
+      integer :: i, status
+
+      if (self%failed) return
+      allocate (bytes(len(value) + 1))
+      do i = 1, len(value)
+         bytes(i) = value(i:i)
+      end do
+      bytes(len(value) + 1) = c_null_char
+      address(1) = c_loc(bytes)
+      call h5tcopy_f(h5t_string, string, status)
+      call h5tset_cset_f(string, h5t_cset_utf8_f, status)
+      call put_attribute(self, owner, name, string, [integer(hsize_t) ::], c_loc(address))
+      call h5tclose_f(string, status)
+   end subroutine attach_text
+
+   subroutine attach_real(self, owner, name, value)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner, name
+      real(dp), intent(in) :: value
+      real(dp), target :: copy
+
+      copy = value
+      call put_attribute(self, owner, name, h5t_native_double, [integer(hsize_t) ::], c_loc(copy))
+   end subroutine attach_real
+
+   subroutine attach_integers(self, owner, name, values)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner, name
+      integer, intent(in) :: values(:)   !! one is written as a scalar
+      integer, target :: copy(size(values))
+
+      copy = values
+      if (size(values) == 1) then
+         call put_attribute(self, owner, name, h5t_native_integer, [integer(hsize_t) ::], c_loc(copy))
+      else
+         call put_attribute(self, owner, name, h5t_native_integer, shape(values, hsize_t), c_loc(copy))
+      end if
+   end subroutine attach_integers
+
+   !> Closes the file and gives it its name, or leaves nothing behind.
+   subroutine finish(self, problem)
+      class(hdf5_writer_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: ignored
+      integer :: status
+
+      if (self%file >= 0) then
+         call h5fclose_f(self%file, status)
+         call note(self, status, 'the end of the file')
+      end if
+      self%file = -1
+      if (.not. self%failed) then
+         call publish(self%path, problem)
+         if (.not. problem%raised()) return
+      else
+         call problem%raise(exit_files, "cannot write '"//self%path//"' (at "//self%failed_at// &
+            '): is there space left, and may you write there?')
+      end if
+      call delete_file(partial_path(self%path), ignored)
+   end subroutine finish
+
+   !> Writes one dataset without compression, which would take longer than the step.
+   subroutine put(self, name, kind, extent, address)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer(hid_t), intent(in) :: kind         !! type in memory and in the file
+      integer(hsize_t), intent(in) :: extent(:)
+      type(c_ptr), intent(in) :: address
+      integer(hid_t) :: space, dataset
+      integer :: ignored, status
+
+      if (self%failed) return
+      call h5screate_simple_f(size(extent), extent, space, status)
+      call note(self, status, name)
+      call h5dcreate_f(self%file, name, kind, space, dataset, status)
+      call note(self, status, name)
+      if (status >= 0) then
+         if (all(extent > 0)) call h5dwrite_f(dataset, kind, address, status)
+         call note(self, status, name)
+         call h5dclose_f(dataset, status)
+         call note(self, status, name)
+      end if
+      call h5sclose_f(space, ignored)
+   end subroutine put
+
+   subroutine put_attribute(self, owner, name, kind, extent, address)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner, name
+      integer(hid_t), intent(in) :: kind
+      integer(hsize_t), intent(in) :: extent(:)   !! of size 0 for a scalar
+      type(c_ptr), intent(in) :: address
+      integer(hid_t) :: space, attribute
+      integer :: ignored, status
+
+      if (self%failed) return
+      if (size(extent) == 0) then
+         call h5screate_f(h5s_scalar_f, space, status)
+      else
+         call h5screate_simple_f(size(extent), extent, space, status)
+      end if
+      call note(self, status, name)
+      call h5acreate_by_name_f(self%file, owner, name, kind, space, attribute, status)
+      call note(self, status, owner//' '//name)
+      if (status >= 0) then
+         call h5awrite_f(attribute, kind, address, status)
+         call note(self, status, owner//' '//name)
+         call h5aclose_f(attribute, ignored)
+      end if
+      call h5sclose_f(space, ignored)
+   end subroutine put_attribute
+
+   !> Remembers the first call that failed.
+   subroutine note(self, status, place)
+      class(hdf5_writer_t), intent(inout) :: self
+      integer, intent(in) :: status
+      character(*), intent(in) :: place
+
+      if (status >= 0 .or. self%failed) return
+      self%failed = .true.
+      self%failed_at = place
+   end subroutine note
+
+end module hdf5_writer

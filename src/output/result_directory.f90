@@ -1,0 +1,172 @@
+!> The directory a run writes to: made if need be, never mixed with another run's results.
+module result_directory
+   use errors, only: exit_files, exit_input, failure
+   use file_system, only: delete_file, find_files, is_directory, is_writable, longest_path, make_directory, path_exists, &
+      remove_directory
+   implicit none
+   private
+
+   public :: result_directory_t
+
+   ! Names of files, shared by those who write them and by those who delete them.
+   character(*), parameter, public :: log_name = 'run.log'
+   character(*), parameter, public :: input_name = 'input_used.nml'
+   character(*), parameter, public :: energy_name = 'energy.dat'
+   character(*), parameter, public :: probes_name = 'probes.dat'
+   character(*), parameter, public :: summary_name = 'summary.txt'
+   character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
+
+   character(*), parameter :: digit = '[0-9]'
+   character(*), parameter :: any_snapshot = 'snapshot_'//repeat(digit, 6)//'.vtkhdf'
+
+   !> Everything dynsph writes and may therefore delete, as shell patterns.
+   character(*), parameter :: own_files(*) = [character(64) :: log_name, input_name, energy_name, probes_name, summary_name, &
+      series_name, any_snapshot, &
+      input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial']
+
+   !> What shows that a directory holds a result.
+   character(*), parameter :: result_signs(*) = [character(16) :: log_name, energy_name, summary_name, '*.vtkhdf']
+
+   !> A result directory, and how much of its path this run has made.
+   type :: result_directory_t
+      character(:), allocatable :: path
+      character(longest_path), allocatable, private :: made(:)   !! directories made by this run, outermost first
+   contains
+      procedure :: prepare
+      procedure :: file
+      procedure :: snapshot_path
+      procedure :: discard_if_empty
+   end type result_directory_t
+
+contains
+
+   !> Makes the directory, or takes an existing one; changes nothing when it cannot be used.
+   subroutine prepare(self, path, overwrite, problem)
+      class(result_directory_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      logical, intent(in) :: overwrite          !! delete an earlier result's files
+      type(failure), intent(inout) :: problem   !! exit_input: holds a result; exit_files: cannot be used
+      character(:), allocatable :: reason
+
+      self%path = without_slashes(path)
+      if (allocated(self%made)) deallocate (self%made)
+      allocate (self%made(0))
+      if (.not. path_exists(self%path)) call make_with_parents(self, problem)
+      if (problem%raised()) then
+         call self%discard_if_empty()
+      else if (.not. is_directory(self%path)) then
+         call problem%raise(exit_files, "cannot write results to '"//self%path//"': it is not a directory that can be read"// &
+            hint_other())
+      else if (.not. is_writable(self%path, reason)) then
+         call problem%raise(exit_files, "cannot write results to '"//self%path//"': "//reason//hint_other())
+      else if (size(self%made) == 0) then
+         call deal_with_earlier_result(self%path, overwrite, problem)
+      end if
+   end subroutine prepare
+
+   !> The path of a file in this directory.
+   pure function file(self, name) result(path)
+      class(result_directory_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable :: path
+
+      path = self%path//'/'//name
+   end function file
+
+   !> The path of a numbered snapshot.
+   pure function snapshot_path(self, number) result(path)
+      class(result_directory_t), intent(in) :: self
+      integer, intent(in) :: number   !! 0 to 999999
+      character(:), allocatable :: path
+      character(6) :: digits
+
+      write (digits, '(i6.6)') number
+      path = self%file('snapshot_'//digits//'.vtkhdf')
+   end function snapshot_path
+
+   !> Removes what this run made of the path, as far as it is still empty.
+   subroutine discard_if_empty(self)
+      class(result_directory_t), intent(inout) :: self
+      character(:), allocatable :: reason
+      integer :: i
+
+      if (.not. allocated(self%made)) return
+      do i = size(self%made), 1, -1
+         call remove_directory(trim(self%made(i)), reason)
+         if (len(reason) > 0) exit
+      end do
+      deallocate (self%made)
+   end subroutine discard_if_empty
+
+   !> Makes the directory and those of its parents that are missing.
+   subroutine make_with_parents(self, problem)
+      class(result_directory_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: reason, step
+      character(longest_path) :: made
+      integer :: last, slash
+
+      last = 0
+      do while (last < len(self%path))
+         slash = index(self%path(last + 2:), '/')
+         last = merge(last + slash, len(self%path), slash > 0)
+         step = self%path(:last)
+         if (path_exists(step)) cycle
+         call make_directory(step, reason)
+         if (len(reason) > 0) then
+            call problem%raise(exit_files, "cannot make the directory '"//step//"': "//reason//hint_other())
+            return
+         end if
+         made = step
+         self%made = [self%made, made]
+      end do
+   end subroutine make_with_parents
+
+   !> Refuses a directory with a result, or deletes the files of dynsph in it and nothing else.
+   subroutine deal_with_earlier_result(path, overwrite, problem)
+      character(*), intent(in) :: path
+      logical, intent(in) :: overwrite
+      type(failure), intent(inout) :: problem
+      character(longest_path), allocatable :: found(:)
+      character(:), allocatable :: reason
+      integer :: i, k
+
+      if (.not. overwrite) then
+         do i = 1, size(result_signs)
+            call find_files(path, trim(result_signs(i)), found)
+            if (size(found) == 0) cycle
+            call problem%raise(exit_input, "'"//path//"' already holds a result ("//trim(found(1)(len(path) + 2:))// &
+               "): choose another directory with --output DIR, or replace the result with --overwrite")
+            return
+         end do
+         return
+      end if
+      do i = 1, size(own_files)
+         call find_files(path, trim(own_files(i)), found)
+         do k = 1, size(found)
+            call delete_file(trim(found(k)), reason)
+            if (len(reason) > 0) call problem%raise(exit_files, "cannot delete '"//trim(found(k))//"': "//reason//hint_other())
+         end do
+      end do
+   end subroutine deal_with_earlier_result
+
+   pure function hint_other() result(hint)
+      character(:), allocatable :: hint
+
+      hint = '; choose another directory with --output DIR'
+   end function hint_other
+
+   !> A path without blanks around it and slashes at its end; '.' for none at all.
+   pure function without_slashes(path) result(clean)
+      character(*), intent(in) :: path
+      character(:), allocatable :: clean
+
+      clean = trim(adjustl(path))
+      do while (len(clean) > 1)
+         if (clean(len(clean):) /= '/') exit
+         clean = clean(:len(clean) - 1)
+      end do
+      if (len(clean) == 0) clean = '.'
+   end function without_slashes
+
+end module result_directory

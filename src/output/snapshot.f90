@@ -1,0 +1,148 @@
+!> Particles at one time, in HDF5 after VTK's own layout (VTKHDF 1.0): ParaView 5.10
+!! and later open it without a plug-in, h5py users find named arrays with units.
+module snapshot
+   use, intrinsic :: iso_fortran_env, only: int8
+   use errors, only: failure
+   use hdf5_writer, only: hdf5_writer_t
+   use kinds, only: dp, i8
+   implicit none
+   private
+
+   public :: snapshot_field, snapshot_head, write_snapshot
+
+   character(*), parameter :: grid = '/VTKHDF'
+   character(*), parameter :: points = grid//'/PointData/'
+   integer(int8), parameter :: vtk_vertex = 1_int8   !! VTK's number of the cell that is one point
+
+   !> One quantity on all particles: a scalar or a plane vector.
+   type :: snapshot_field
+      character(:), allocatable :: name        !! of the array, e.g. 'velocity'
+      character(:), allocatable :: unit        !! e.g. 'length/time'
+      character(:), allocatable :: long_name   !! e.g. 'velocity of the particle'
+      real(dp), allocatable :: values(:)       !! (n), or
+      real(dp), allocatable :: vectors(:, :)   !! (n, 2)
+   end type snapshot_field
+
+   !> What a snapshot says about the run it comes from.
+   type :: snapshot_head
+      character(:), allocatable :: title        !! of the scene
+      character(:), allocatable :: version      !! of dynsph
+      character(:), allocatable :: git_id       !! commit it was built from
+      character(:), allocatable :: input_text   !! the complete namelist
+      real(dp) :: time = 0.0_dp                 !! [time]
+      integer :: step = 0
+      real(dp) :: reference_length = 0.0_dp     !! d [length]
+      real(dp) :: spacing = 0.0_dp              !! dx [length]
+      real(dp) :: sound_speed = 0.0_dp          !! c0 [length/time]
+      real(dp) :: density = 0.0_dp              !! rho0 [mass/length^3]
+      real(dp) :: gravity = 0.0_dp              !! g, downwards [length/time^2]
+   end type snapshot_head
+
+contains
+
+   !> Writes one snapshot; under its name it is always complete. Particles keep their order.
+   subroutine write_snapshot(path, head, id, x, y, fields, precision, problem)
+      character(*), intent(in) :: path
+      type(snapshot_head), intent(in) :: head
+      integer, intent(in), contiguous :: id(:)       !! (n) lasting number of each particle
+      real(dp), intent(in) :: x(:), y(:)             !! (n) positions [length]
+      type(snapshot_field), intent(in) :: fields(:)  !! of n particles each
+      character(*), intent(in) :: precision          !! 'single' or 'double', of positions and fields
+      type(failure), intent(inout) :: problem        !! exit_files: cannot be written
+      type(hdf5_writer_t) :: file
+      logical :: single
+      integer :: i
+
+      single = precision /= 'double'
+      call file%create(path)
+      call write_head(file, head)
+      call file%make_group(grid)
+      call file%attach(grid, 'Version', [1, 0])
+      call file%put_label(grid, 'Type', 'UnstructuredGrid')
+      call write_cells(file, size(x))
+      call file%put_vectors(grid//'/Points', x, y, single)
+      call label(file, grid//'/Points', 'length', 'position (x, y, 0)')
+      call file%make_group(grid//'/PointData')
+      call file%put_integers(points//'id', id)
+      call label(file, points//'id', '-', 'lasting number of the particle')
+      do i = 1, size(fields)
+         call write_field(file, fields(i), single)
+      end do
+      call file%make_group(grid//'/CellData')
+      call file%make_group(grid//'/FieldData')
+      call file%put_reals(grid//'/FieldData/TimeValue', [head%time], single=.false.)
+      call label(file, grid//'/FieldData/TimeValue', 'time', 'time of the snapshot')
+      call file%finish(problem)
+   end subroutine write_snapshot
+
+   !> The run's attributes on the root group.
+   subroutine write_head(file, head)
+      type(hdf5_writer_t), intent(inout) :: file
+      type(snapshot_head), intent(in) :: head
+
+      call file%attach('/', 'title', text_or_none(head%title))
+      call file%attach('/', 'software', 'dynsph')
+      call file%attach('/', 'version', text_or_none(head%version))
+      call file%attach('/', 'git_id', text_or_none(head%git_id))
+      call file%attach('/', 'input', text_or_none(head%input_text))
+      call file%attach('/', 'time', head%time)
+      call file%attach('/', 'step', [head%step])
+      call file%attach('/', 'reference_length', head%reference_length)
+      call file%attach('/', 'spacing', head%spacing)
+      call file%attach('/', 'sound_speed', head%sound_speed)
+      call file%attach('/', 'density', head%density)
+      call file%attach('/', 'gravity', head%gravity)
+   end subroutine write_head
+
+   !> One cell for each particle: without cells ParaView shows nothing.
+   subroutine write_cells(file, n)
+      type(hdf5_writer_t), intent(inout) :: file
+      integer, intent(in) :: n   !! particles
+      integer(i8), allocatable :: numbers(:)
+      integer(int8), allocatable :: types(:)
+      integer(i8) :: i
+
+      allocate (types(n), source=vtk_vertex)
+      allocate (numbers(n + 1))
+      do i = 1, n + 1
+         numbers(i) = i - 1
+      end do
+      call file%put_longs(grid//'/NumberOfPoints', [int(n, i8)])
+      call file%put_longs(grid//'/NumberOfCells', [int(n, i8)])
+      call file%put_longs(grid//'/NumberOfConnectivityIds', [int(n, i8)])
+      call file%put_longs(grid//'/Connectivity', numbers(:n))
+      call file%put_longs(grid//'/Offsets', numbers)
+      call file%put_bytes(grid//'/Types', types)
+   end subroutine write_cells
+
+   subroutine write_field(file, field, single)
+      type(hdf5_writer_t), intent(inout) :: file
+      type(snapshot_field), intent(in) :: field
+      logical, intent(in) :: single
+
+      if (allocated(field%vectors)) then
+         call file%put_vectors(points//field%name, field%vectors(:, 1), field%vectors(:, 2), single)
+      else
+         call file%put_reals(points//field%name, field%values, single)
+      end if
+      call label(file, points//field%name, text_or_none(field%unit), text_or_none(field%long_name))
+   end subroutine write_field
+
+   subroutine label(file, dataset, unit, long_name)
+      type(hdf5_writer_t), intent(inout) :: file
+      character(*), intent(in) :: dataset, unit, long_name
+
+      call file%attach(dataset, 'units', unit)
+      call file%attach(dataset, 'long_name', long_name)
+   end subroutine label
+
+   !> A text that its owner may not have set.
+   pure function text_or_none(text) result(known)
+      character(:), allocatable, intent(in) :: text
+      character(:), allocatable :: known
+
+      known = ''
+      if (allocated(text)) known = text
+   end function text_or_none
+
+end module snapshot

@@ -1,0 +1,126 @@
+!> Text tables that grow while a run goes on: a head of comments, then rows of numbers.
+!!
+!! The last line of the head holds the column names and is no comment, so that
+!! gnuplot (`set datafile columnheaders`, `column("E_K")`) and pandas find them.
+module table
+   use errors, only: exit_files, failure
+   use file_system, only: has_size, no_space
+   use kinds, only: dp, i8
+   use timers, only: wall_seconds
+   implicit none
+   private
+
+   public :: table_t
+
+   integer, parameter :: no_unit = -1
+   integer, parameter :: column_width = 25                  !! full precision, three digits of exponent
+   real(dp), parameter :: flush_interval = 1.0_dp           !! [s], so that a run can be watched
+   character(*), parameter :: row_format = '(*(es25.16e3))'
+
+   !> A table that is being written under its final name.
+   type :: table_t
+      private
+      integer :: unit = no_unit
+      integer(i8) :: row_bytes = 0
+      integer(i8) :: bytes = 0                 !! that the file must have by now
+      real(dp) :: last_flush = 0.0_dp
+      character(:), allocatable :: path
+   contains
+      procedure :: create
+      procedure :: row
+      procedure :: close => close_table
+      procedure :: is_open
+   end type table_t
+
+contains
+
+   !> Starts a table; an earlier file of that name is replaced.
+   subroutine create(self, path, head, names, units, problem)
+      class(table_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      character(*), intent(in) :: head(:)       !! comment lines, without #
+      character(*), intent(in) :: names(:)      !! (columns) without blanks
+      character(*), intent(in) :: units(:)      !! (columns)
+      type(failure), intent(inout) :: problem   !! exit_files: cannot be written
+      character(256) :: message
+      integer :: i, status
+
+      self%path = trim(path)
+      self%row_bytes = size(names)*column_width + 1
+      open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
+      if (status /= 0) then
+         self%unit = no_unit
+         call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
+         return
+      end if
+      do i = 1, size(head)
+         write (self%unit, '(a)', iostat=status, iomsg=message) trim('# '//head(i))
+      end do
+      write (self%unit, '(a)', iostat=status, iomsg=message) '# columns, name [unit]:'
+      do i = 1, size(names)
+         write (self%unit, '(a, i3, 5a)', iostat=status, iomsg=message) '# ', i, '  ', trim(names(i)), ' [', trim(units(i)), ']'
+      end do
+      write (self%unit, '(*(a))', iostat=status, iomsg=message) (right_aligned(names(i)), i=1, size(names))
+      self%bytes = self%row_bytes
+      call flush_now(self, wall_seconds(), problem)
+   end subroutine create
+
+   !> Adds a row. NaN and infinities are written as such.
+   subroutine row(self, values, problem)
+      class(table_t), intent(inout) :: self
+      real(dp), intent(in) :: values(:)         !! (columns)
+      type(failure), intent(inout) :: problem   !! exit_files: the disk is full
+      character(256) :: message
+      real(dp) :: now
+      integer :: status
+
+      if (self%unit == no_unit) return
+      write (self%unit, row_format, iostat=status, iomsg=message) values
+      if (status /= 0) then
+         call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
+         return
+      end if
+      self%bytes = self%bytes + self%row_bytes
+      now = wall_seconds()
+      if (now - self%last_flush >= flush_interval) call flush_now(self, now, problem)
+   end subroutine row
+
+   !> Ends a table; one that is not open is left alone.
+   subroutine close_table(self, problem)
+      class(table_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files: the disk is full
+      integer :: ignored
+
+      if (self%unit == no_unit) return
+      call flush_now(self, wall_seconds(), problem)
+      close (self%unit, iostat=ignored)
+      self%unit = no_unit
+   end subroutine close_table
+
+   pure logical function is_open(self)
+      class(table_t), intent(in) :: self
+
+      is_open = self%unit /= no_unit
+   end function is_open
+
+   !> Hands the rows so far to the system; a full disk shows only here.
+   subroutine flush_now(self, now, problem)
+      class(table_t), intent(inout) :: self
+      real(dp), intent(in) :: now   !! [s]
+      type(failure), intent(inout) :: problem
+
+      if (.not. has_size(self%unit, self%bytes)) call problem%raise(exit_files, "cannot write '"//self%path//"': "//no_space)
+      self%last_flush = now
+   end subroutine flush_now
+
+   !> A column name above the last digit of its numbers; the first column begins with blanks too.
+   pure function right_aligned(name) result(cell)
+      character(*), intent(in) :: name
+      character(column_width) :: cell
+
+      cell = trim(name)
+      cell = adjustr(cell)
+      if (len_trim(name) >= column_width) cell = ' '//name
+   end function right_aligned
+
+end module table

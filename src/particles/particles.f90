@@ -1,0 +1,124 @@
+!> Particle arrays: one slot a particle, own particles first, mirror images after them.
+!!
+!! Own slots are filled strip by strip (module `strips`), each strip padded to whole
+!! clusters of `nl` slots with dummies: far away, without volume, id 0.
+module particles
+   use kinds, only: dp
+   use lanes, only: nl
+   implicit none
+   private
+
+   public :: state_t, particles_t, allocate_particles, reserve_slots, bytes_per_slot
+
+   real(dp), parameter, public :: far_away = 1.0e30_dp   !! where dummies are, in any unit of length
+
+   !> What the equations advance, for every slot; also the state of a Runge-Kutta stage.
+   type :: state_t
+      real(dp), allocatable :: x(:), y(:)   !! (n_slots) position
+      real(dp), allocatable :: u(:), v(:)   !! (n_slots) velocity
+      real(dp), allocatable :: s(:)         !! (n_slots) rho - rho0, so that p = c0**2 s without cancellation
+      real(dp), allocatable :: w(:)         !! (n_slots) volume m/rho (area in two dimensions)
+   end type state_t
+
+   !> All particles of this process.
+   type :: particles_t
+      integer :: n = 0          !! real particles
+      integer :: n_own = 0      !! own slots, padding included: a multiple of nl
+      integer :: n_slots = 0    !! own slots and images
+      integer :: capacity = 0   !! slots allocated
+      type(state_t) :: base        !! state at the start of the step
+      type(state_t) :: stage(2)    !! stage states, in turn read and written
+      type(state_t) :: next        !! state at the end of the step, summed up over the stages
+      real(dp), allocatable :: m(:)               !! (n_slots) mass, own slots only
+      integer, allocatable :: id(:)               !! (n_slots) 1..n for real particles, 0 for dummies
+      integer, allocatable :: sorted_id(:)        !! (n_slots) scratch of the sort
+      real(dp), allocatable :: owner(:)           !! (n_slots) own slot number; of an image, its source's
+      real(dp), allocatable :: visc_x(:), visc_y(:)   !! (n_slots) frozen viscous acceleration
+      real(dp), allocatable :: diff_s(:)          !! (n_slots) frozen density-diffusion rate
+      real(dp), allocatable :: grad_x(:), grad_y(:)   !! (n_slots) G, renormalised gradient of rho
+   end type particles_t
+
+contains
+
+   !> Room for n particles and a first guess of padding and images; every slot a dummy.
+   subroutine allocate_particles(self, n)
+      type(particles_t), intent(out) :: self
+      integer, intent(in) :: n   !! real particles
+
+      self%n = n
+      call reserve_slots(self, n + n/20 + 64*nl)
+   end subroutine allocate_particles
+
+   !> Makes sure that there are at least `n_slots` slots. Keeps all contents.
+   subroutine reserve_slots(self, n_slots)
+      type(particles_t), intent(inout) :: self
+      integer, intent(in) :: n_slots
+      integer :: capacity, k
+
+      if (n_slots <= self%capacity) return
+      capacity = n_slots + n_slots/16
+      capacity = nl*((capacity + nl - 1)/nl)
+      call grow_state(self%base, capacity)
+      call grow_state(self%next, capacity)
+      do k = 1, 2
+         call grow_state(self%stage(k), capacity)
+      end do
+      call grow(self%m, capacity, 0.0_dp)
+      call grow(self%owner, capacity, 0.0_dp)
+      call grow(self%visc_x, capacity, 0.0_dp)
+      call grow(self%visc_y, capacity, 0.0_dp)
+      call grow(self%diff_s, capacity, 0.0_dp)
+      call grow(self%grad_x, capacity, 0.0_dp)
+      call grow(self%grad_y, capacity, 0.0_dp)
+      call grow_integer(self%id, capacity)
+      call grow_integer(self%sorted_id, capacity)
+      self%capacity = capacity
+   end subroutine reserve_slots
+
+   !> Bytes that a slot takes in the arrays above.
+   pure integer function bytes_per_slot()
+      bytes_per_slot = 8*(4*6 + 7) + 2*4
+   end function bytes_per_slot
+
+   subroutine grow_state(state, capacity)
+      type(state_t), intent(inout) :: state
+      integer, intent(in) :: capacity
+
+      call grow(state%x, capacity, far_away)
+      call grow(state%y, capacity, far_away)
+      call grow(state%u, capacity, 0.0_dp)
+      call grow(state%v, capacity, 0.0_dp)
+      call grow(state%s, capacity, 0.0_dp)
+      call grow(state%w, capacity, 0.0_dp)
+   end subroutine grow_state
+
+   subroutine grow(array, capacity, filler)
+      real(dp), allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: capacity
+      real(dp), intent(in) :: filler
+      real(dp), allocatable :: larger(:)
+      integer :: old
+
+      allocate (larger(capacity))
+      old = 0
+      if (allocated(array)) old = size(array)
+      if (old > 0) larger(1:old) = array
+      larger(old + 1:) = filler
+      call move_alloc(larger, array)
+   end subroutine grow
+
+   subroutine grow_integer(array, capacity)
+      integer, allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: capacity
+      integer, allocatable :: larger(:)
+      integer :: old
+
+      allocate (larger(capacity))
+      old = 0
+      if (allocated(array)) old = size(array)
+      if (old > 0) larger(1:old) = array
+      larger(old + 1:) = 0
+      call move_alloc(larger, array)
+   end subroutine grow_integer
+
+end module particles

@@ -1,0 +1,303 @@
+!> Neighbour search: horizontal strips of slots, sorted in x, that a cluster's neighbours lie in
+!! as a few contiguous ranges.
+!!
+!! Strips are half a search radius high. Inside a strip, points are counting-sorted in x by bins much narrower
+!! than the particle spacing, so the slots that a cluster can reach are one range a strip.
+!! The order of slots is that of strip, bin and previous slot, whatever the number of threads.
+module strips
+   use, intrinsic :: iso_fortran_env, only: int64
+   use kinds, only: dp
+   use lanes, only: nl
+   use omp_lib, only: omp_get_max_threads
+   implicit none
+   private
+
+   public :: strips_t, ranges_t, sort_into_strips, add_ranges
+
+   integer, parameter, public :: max_ranges = 24   !! a cluster's ranges: strips it reaches, own and images
+
+   !> Contiguous slot ranges.
+   type :: ranges_t
+      integer :: n = 0
+      integer :: first(max_ranges), last(max_ranges)
+   end type ranges_t
+
+   !> The strips of a set of points and where their slots begin.
+   type :: strips_t
+      integer :: n = 0                              !! strips
+      real(dp) :: origin = 0                        !! y of some strip's lower edge, set by the caller
+      real(dp) :: bottom = 0                        !! y of the lowest strip's lower edge
+      real(dp) :: height = 1                        !! of a strip
+      real(dp) :: bin_width = 1                     !! in x
+      integer :: n_slots = 0                        !! slots taken, padding included
+      integer, allocatable :: slot_start(:)         !! (n+1) first slot of a strip
+      real(dp), allocatable :: left(:)              !! (n) x of a strip's first bin
+      integer, allocatable :: bins(:)               !! (n) bins of a strip
+      integer, allocatable :: bin_offset(:)         !! (n) where a strip's bins are in bin_start
+      integer, allocatable :: bin_start(:)          !! first slot of each bin, and one past the strip's last
+      real(dp), allocatable :: fastest(:)           !! (n) largest speed in a strip, set by the caller
+      real(dp) :: fastest_of_all = 0                !! largest of these
+      integer, allocatable, private :: strip_of(:)  !! (points) scratch
+      integer, allocatable, private :: by_strip(:)  !! (points) scratch
+      integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from slot_start(1)
+   end type strips_t
+
+contains
+
+   !> Sorts points into strips; slot `first_slot + k - 1` then belongs to point `point_of(k)`.
+   !!
+   !! Points with used = 0 are left out. With more than `max_strips` strips nothing is done and
+   !! n = -1: some point is absurdly far from the others.
+   subroutine sort_into_strips(self, n_points, used, x, y, first_slot, whole_clusters)
+      type(strips_t), intent(inout) :: self      !! height and bin_width are set by the caller
+      integer, intent(in) :: n_points
+      integer, intent(in) :: used(n_points)      !! nonzero for points that take part
+      real(dp), intent(in) :: x(n_points), y(n_points)
+      integer, intent(in) :: first_slot
+      logical, intent(in) :: whole_clusters      !! pad each strip to a multiple of nl slots
+      integer, allocatable :: strip_start(:)
+
+      call assign_strips(self, n_points, used, y)
+      if (self%n < 0) return
+      call list_by_strip(self, n_points, strip_start)
+      call lay_out(self, strip_start, x, first_slot, whole_clusters)
+      call fill_bins(self, strip_start, x)
+   end subroutine sort_into_strips
+
+   ! The strip of each point; 0 for points that take no part.
+   subroutine assign_strips(self, n_points, used, y)
+      type(strips_t), intent(inout) :: self
+      integer, intent(in) :: n_points, used(n_points)
+      real(dp), intent(in) :: y(n_points)
+      integer, parameter :: max_strips = 4000000
+      real(dp) :: lowest, highest
+      integer :: i
+
+      lowest = huge(1.0_dp)
+      highest = -huge(1.0_dp)
+      !$omp parallel do default(none) shared(n_points, used, y) reduction(min:lowest) reduction(max:highest)
+      do i = 1, n_points
+         if (used(i) == 0) cycle
+         lowest = min(lowest, y(i))
+         highest = max(highest, y(i))
+      end do
+      !$omp end parallel do
+      self%n = 0
+      if (highest >= lowest) then
+         self%n = -1
+         if (.not. max(abs(lowest - self%origin), abs(highest - self%origin)) < self%height*max_strips) return
+         self%bottom = self%origin + self%height*floor((lowest - self%origin)/self%height)
+         self%n = int((highest - self%bottom)/self%height) + 1
+      end if
+      call resize(self%strip_of, n_points)
+      !$omp parallel do default(none) shared(self, n_points, used, y)
+      do i = 1, n_points
+         self%strip_of(i) = 0
+         if (used(i) /= 0) self%strip_of(i) = min(self%n, int((y(i) - self%bottom)/self%height) + 1)
+      end do
+      !$omp end parallel do
+   end subroutine assign_strips
+
+   ! Points in the order of their strips, by a counting sort with a histogram for each chunk of points.
+   subroutine list_by_strip(self, n_points, strip_start)
+      type(strips_t), intent(inout) :: self
+      integer, intent(in) :: n_points
+      integer, allocatable, intent(out) :: strip_start(:)   !! (n+1) into by_strip
+      integer, allocatable :: place(:, :)
+      integer :: chunk, n_chunks, i, k, total, here
+
+      n_chunks = omp_get_max_threads()
+      allocate (place(self%n, n_chunks), strip_start(self%n + 1))
+      call resize(self%by_strip, n_points)
+      !$omp parallel do default(none) shared(self, n_points, n_chunks, place) private(i, k) schedule(static, 1)
+      do chunk = 1, n_chunks
+         place(:, chunk) = 0
+         do i = chunk_start(chunk), chunk_start(chunk + 1) - 1
+            k = self%strip_of(i)
+            if (k > 0) place(k, chunk) = place(k, chunk) + 1
+         end do
+      end do
+      !$omp end parallel do
+      total = 1
+      do k = 1, self%n
+         strip_start(k) = total
+         do chunk = 1, n_chunks
+            here = place(k, chunk)
+            place(k, chunk) = total
+            total = total + here
+         end do
+      end do
+      strip_start(self%n + 1) = total
+      !$omp parallel do default(none) shared(self, n_points, n_chunks, place) private(i, k) schedule(static, 1)
+      do chunk = 1, n_chunks
+         do i = chunk_start(chunk), chunk_start(chunk + 1) - 1
+            k = self%strip_of(i)
+            if (k == 0) cycle
+            self%by_strip(place(k, chunk)) = i
+            place(k, chunk) = place(k, chunk) + 1
+         end do
+      end do
+      !$omp end parallel do
+
+   contains
+
+      pure integer function chunk_start(c)
+         integer, intent(in) :: c
+
+         chunk_start = int((int(c - 1, int64)*n_points)/n_chunks) + 1
+      end function chunk_start
+
+   end subroutine list_by_strip
+
+   ! Where each strip's slots and bins begin.
+   subroutine lay_out(self, strip_start, x, first_slot, whole_clusters)
+      type(strips_t), intent(inout) :: self
+      integer, intent(in) :: strip_start(:)
+      real(dp), intent(in) :: x(:)
+      integer, intent(in) :: first_slot
+      logical, intent(in) :: whole_clusters
+      real(dp) :: leftmost, rightmost
+      integer :: k, i, n_here, slot, offset, max_bins
+
+      call resize(self%slot_start, self%n + 1)
+      call resize(self%bins, self%n)
+      call resize(self%bin_offset, self%n)
+      call resize_real(self%left, self%n)
+      call resize_real(self%fastest, self%n)
+      !$omp parallel do default(none) shared(self, strip_start, x) &
+      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic, 8)
+      do k = 1, self%n
+         leftmost = huge(1.0_dp)
+         rightmost = -huge(1.0_dp)
+         do i = strip_start(k), strip_start(k + 1) - 1
+            leftmost = min(leftmost, x(self%by_strip(i)))
+            rightmost = max(rightmost, x(self%by_strip(i)))
+         end do
+         n_here = strip_start(k + 1) - strip_start(k)
+         self%left(k) = leftmost
+         self%bins(k) = 0
+         ! A strip of few far-apart points is not worth a bin every quarter spacing.
+         max_bins = 64*n_here + 64
+         if (n_here > 0) self%bins(k) = int(min(real(max_bins, dp), (rightmost - leftmost)/self%bin_width)) + 1
+      end do
+      !$omp end parallel do
+      slot = first_slot
+      offset = 0
+      do k = 1, self%n
+         n_here = strip_start(k + 1) - strip_start(k)
+         self%slot_start(k) = slot
+         if (whole_clusters) n_here = nl*((n_here + nl - 1)/nl)
+         slot = slot + n_here
+         self%bin_offset(k) = offset
+         offset = offset + self%bins(k) + 1
+      end do
+      self%slot_start(self%n + 1) = slot
+      self%n_slots = slot - first_slot
+      call resize(self%bin_start, offset)
+      call resize(self%point_of, self%n_slots)
+   end subroutine lay_out
+
+   ! Counting sort in x inside each strip.
+   subroutine fill_bins(self, strip_start, x)
+      type(strips_t), intent(inout) :: self
+      integer, intent(in) :: strip_start(:)
+      real(dp), intent(in) :: x(:)
+      integer :: k, i, b, slot, here, first
+
+      first = self%slot_start(1) - 1
+      !$omp parallel do default(none) shared(self, strip_start, x, first) private(i, b, slot, here) schedule(dynamic, 8)
+      do k = 1, self%n
+         associate (start => self%bin_start(self%bin_offset(k) + 1:self%bin_offset(k) + self%bins(k) + 1))
+            start = 0
+            do i = strip_start(k), strip_start(k + 1) - 1
+               b = bin(self, k, x(self%by_strip(i)))
+               start(b) = start(b) + 1
+            end do
+            slot = self%slot_start(k)
+            do b = 1, self%bins(k) + 1
+               here = start(b)
+               start(b) = slot
+               slot = slot + here
+            end do
+            self%point_of(self%slot_start(k) - first:self%slot_start(k + 1) - 1 - first) = 0
+            do i = strip_start(k), strip_start(k + 1) - 1
+               b = bin(self, k, x(self%by_strip(i)))
+               self%point_of(start(b) - first) = self%by_strip(i)
+               start(b) = start(b) + 1
+            end do
+            ! Each start has moved on to the next bin's: shift them back.
+            do b = self%bins(k) + 1, 2, -1
+               start(b) = start(b - 1)
+            end do
+            start(1) = self%slot_start(k)
+         end associate
+      end do
+      !$omp end parallel do
+   end subroutine fill_bins
+
+   ! Bin of abscissa x in strip k, clamped to the strip's bins.
+   pure integer function bin(self, k, x)
+      type(strips_t), intent(in) :: self
+      integer, intent(in) :: k
+      real(dp), intent(in) :: x
+
+      bin = int(max(0.0_dp, min(real(self%bins(k) - 1, dp), (x - self%left(k))/self%bin_width))) + 1
+   end function bin
+
+   !> Adds the slot ranges that hold every point closer than `reach + travel*fastest` to the
+   !! box lower..upper, `fastest` being the strip's largest speed.
+   pure subroutine add_ranges(self, lower, upper, reach, travel, ranges)
+      type(strips_t), intent(in) :: self
+      real(dp), intent(in) :: lower(2), upper(2)   !! corners of the box
+      real(dp), intent(in) :: reach    !! support radius and what the box itself may move
+      real(dp), intent(in) :: travel   !! time that the points may move on for
+      type(ranges_t), intent(inout) :: ranges
+      real(dp) :: gap, half_width, strip_bottom, widest, strip_reach
+      integer :: k, k1, k2, first, last
+
+      if (self%n == 0) return
+      widest = reach + travel*self%fastest_of_all
+      k1 = int(max(0.0_dp, min(real(self%n, dp), (lower(2) - widest - self%bottom)/self%height))) + 1
+      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (upper(2) + widest - self%bottom)/self%height))) + 1
+      do k = k1, k2
+         if (self%bins(k) == 0) cycle
+         strip_bottom = self%bottom + (k - 1)*self%height
+         gap = max(0.0_dp, strip_bottom - upper(2), lower(2) - (strip_bottom + self%height))
+         strip_reach = reach + travel*self%fastest(k)
+         if (gap >= strip_reach) cycle
+         half_width = sqrt(strip_reach**2 - gap**2)
+         if (upper(1) + half_width < self%left(k)) cycle
+         associate (start => self%bin_offset(k))
+            first = self%bin_start(start + bin(self, k, lower(1) - half_width))
+            last = self%bin_start(start + bin(self, k, upper(1) + half_width) + 1) - 1
+         end associate
+         if (last < first) cycle
+         ranges%n = ranges%n + 1
+         ranges%first(ranges%n) = first
+         ranges%last(ranges%n) = last
+      end do
+   end subroutine add_ranges
+
+   subroutine resize(array, n)
+      integer, allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: n
+
+      if (allocated(array)) then
+         if (size(array) >= n) return
+         deallocate (array)
+      end if
+      allocate (array(n + n/8))
+   end subroutine resize
+
+   subroutine resize_real(array, n)
+      real(dp), allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: n
+
+      if (allocated(array)) then
+         if (size(array) >= n) return
+         deallocate (array)
+      end if
+      allocate (array(n + n/8))
+   end subroutine resize_real
+
+end module strips

@@ -1,0 +1,125 @@
+!> dynsph [options] scene.nml
+program main
+   use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
+   use build_info, only: build_type, git_id, version
+   use command_line, only: command_line_t, parse_command_line, write_help
+   use errors, only: end_program, failure
+   use file_system, only: delete_file, write_whole_file
+   use lanes, only: nl
+   use model, only: model_t
+   use report, only: estimate, start_box
+   use result_directory, only: input_name, log_name, result_directory_t
+   use run_log, only: log_t
+   use scene_input, only: echo_text, read_settings, write_markdown, write_template
+   use scene_setup, only: count_particles, set_up_model
+   use settings, only: settings_t
+   use simulation, only: simulate
+   implicit none
+
+   type(command_line_t) :: options
+   type(failure) :: problem
+
+   call parse_command_line(arguments(), options, problem)
+   if (problem%raised()) call end_program(problem)
+   if (options%help) then
+      call write_help(output_unit)
+   else if (options%version) then
+      call write_version()
+   else if (options%template) then
+      call write_template(output_unit)
+   else if (options%keys) then
+      call write_markdown(output_unit)
+   else
+      call run_scene(options, problem)
+   end if
+   call end_program(problem)
+
+contains
+
+   function arguments() result(list)
+      character(:), allocatable :: list(:)
+      integer :: k, length, longest
+
+      longest = 0
+      do k = 1, command_argument_count()
+         call get_command_argument(k, length=length)
+         longest = max(longest, length)
+      end do
+      allocate (character(longest) :: list(command_argument_count()))
+      do k = 1, size(list)
+         call get_command_argument(k, list(k))
+      end do
+   end function arguments
+
+   subroutine write_version()
+      write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'
+      write (output_unit, '(a)') compiler_version()
+      write (output_unit, '(a)') compiler_options()
+      write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles'
+   end subroutine write_version
+
+   !> Reads the scene, then checks or runs it.
+   subroutine run_scene(options, problem)
+      type(command_line_t), intent(in) :: options
+      type(failure), intent(inout) :: problem
+      type(settings_t) :: scene
+      type(model_t) :: model
+      type(log_t) :: screen
+      character(:), allocatable :: warnings(:)
+      integer :: k
+
+      call read_settings(options%scene, options%overrides, scene, warnings, problem)
+      if (problem%raised()) return
+      if (.not. options%check) then
+         call run_into_directory(options, scene, warnings, problem)
+         return
+      end if
+      do k = 1, size(warnings)
+         call screen%warn('input', trim(warnings(k)))
+      end do
+      model = set_up_model(scene)
+      call start_box(screen, scene, model, estimate(scene, model, count_particles(scene)))
+      call screen%line(options%scene//' is valid; nothing was run')
+   end subroutine run_scene
+
+   subroutine run_into_directory(options, scene, warnings, problem)
+      type(command_line_t), intent(in) :: options
+      type(settings_t), intent(in) :: scene
+      character(*), intent(in) :: warnings(:)
+      type(failure), intent(inout) :: problem
+      type(result_directory_t) :: directory
+      type(log_t) :: log
+      character(:), allocatable :: input_text
+      integer :: k
+
+      call directory%prepare(output_directory(options), options%overwrite, problem)
+      if (problem%raised()) return
+      call log%open(directory%file(log_name), options%quiet, problem)
+      if (problem%raised()) then
+         call directory%discard_if_empty()
+         return
+      end if
+      do k = 1, size(warnings)
+         call log%warn('input', trim(warnings(k)))
+      end do
+      input_text = echo_text(scene)
+      call write_whole_file(directory%file(input_name), input_text, problem)
+      if (.not. problem%raised()) call simulate(scene, input_text, directory, log, problem)
+      call log%close()
+   end subroutine run_into_directory
+
+   !> --output, or results/ and the name of the scene file.
+   function output_directory(options) result(path)
+      type(command_line_t), intent(in) :: options
+      character(:), allocatable :: path
+      integer :: dot
+
+      path = options%output
+      if (path /= '') return
+      path = options%scene(index(options%scene, '/', back=.true.) + 1:)
+      dot = index(path, '.', back=.true.)
+      if (dot > 1) path = path(:dot - 1)
+      path = 'results/'//path
+   end function output_directory
+
+end program main

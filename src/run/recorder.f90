@@ -1,0 +1,247 @@
+!> Measures and writes what is due: energies, probes and snapshots.
+module recorder
+   use budget, only: budget_t, start_budget, update_budget
+   use build_info, only: git_id, version
+   use cadence, only: cadence_t
+   use energy_columns, only: energy_names, energy_units
+   use errors, only: failure
+   use kinds, only: dp
+   use model, only: model_t
+   use neighbours, only: neighbours_t
+   use particles, only: particles_t
+   use probes, only: measure_sensor, new_sensor, sensor_t
+   use result_directory, only: energy_name, probes_name, result_directory_t, series_name
+   use series, only: series_t
+   use settings, only: settings_t
+   use snapshot, only: snapshot_field, snapshot_head, write_snapshot
+   use table, only: table_t
+   use time_step, only: step_t
+   implicit none
+   private
+
+   public :: recorder_t
+
+   !> Open tables, cadences and what has been measured.
+   type :: recorder_t
+      type(budget_t) :: budget
+      type(series_t) :: series
+      type(cadence_t) :: when_energy, when_probes, when_snapshot
+      type(table_t) :: energy_table, probe_table
+      type(sensor_t), allocatable :: sensors(:)
+      type(snapshot_head) :: head
+      real(dp) :: time_unit = 1        !! sqrt(d/g), or d/U_ref without gravity
+      real(dp) :: time_before = 0      !! of the step before
+   contains
+      procedure :: start
+      procedure :: record
+      procedure :: save_snapshot
+      procedure :: finish
+   end type recorder_t
+
+contains
+
+   !> Opens the tables that the scene asks for and takes the initial energies.
+   subroutine start(self, scene, input_text, model, p, directory, problem)
+      class(recorder_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      character(*), intent(in) :: input_text   !! complete input, kept in the snapshots
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p       !! base state at t = 0
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: message
+
+      ! The cadences' texts were checked with the input.
+      call self%when_energy%parse(trim(scene%output%energy), message)
+      call self%when_probes%parse(trim(scene%output%probes), message)
+      call self%when_snapshot%parse(trim(scene%output%snapshots), message)
+      self%time_unit = time_unit(scene)
+      call start_budget(self%budget, model, p, scene%domain%upper(1) - scene%domain%lower(1))
+      self%head = snapshot_head(title=trim(scene%scene%title), version=version, git_id=git_id, input_text=input_text, &
+                                reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
+                                density=model%rho0, gravity=model%gravity)
+      if (.not. self%when_energy%is_never()) call self%energy_table%create(directory%file(energy_name), &
+                                          head_lines(scene, self%budget), energy_names, energy_units, problem)
+      if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
+         call start_probes(self, scene, model, directory, problem)
+   end subroutine start
+
+   ! The unit of scaled times, sqrt(d/g).
+   pure real(dp) function time_unit(scene)
+      type(settings_t), intent(in) :: scene
+
+      associate (d => scene%scene%reference_length, fluid => scene%fluid)
+         time_unit = 1
+         if (fluid%gravity > 0) then
+            time_unit = sqrt(d/fluid%gravity)
+         else if (fluid%reference_speed > 0) then
+            time_unit = d/fluid%reference_speed
+         end if
+      end associate
+   end function time_unit
+
+   function head_lines(scene, budget) result(lines)
+      type(settings_t), intent(in) :: scene
+      type(budget_t), intent(in) :: budget
+      character(200) :: lines(3)
+
+      lines(1) = 'title: '//scene%scene%title
+      write (lines(2), '(a, es23.16)') 'dE_Mtot: ', budget%normaliser
+      lines(3) = 'normalised by dE_Mtot = E_M(0) - E_M(at rest in the tank)'
+      if (.not. budget%has_rest) lines(3) = 'no tank to rest in: normalised by E_M(0), rest energies are 0'
+   end function head_lines
+
+   subroutine start_probes(self, scene, model, directory, problem)
+      class(recorder_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem
+      character(200) :: lines(size(scene%probes) + 2)
+      integer :: k
+
+      allocate (self%sensors(size(scene%probes)))
+      lines(1) = 'title: '//scene%scene%title
+      lines(2) = 'wall pressure, averaged over a disc; sampled every '//trim(scene%output%probes)
+      do k = 1, size(scene%probes)
+         associate (probe => scene%probes(k))
+            self%sensors(k) = new_sensor(model, probe%position, probe%diameter)
+            write (lines(k + 2), '(3a, 2(es14.7, 1x), a, es14.7)') &
+               'probe ', trim(probe%name), ' at ', probe%position, 'diameter', probe%diameter
+         end associate
+      end do
+      call self%probe_table%create(directory%file(probes_name), lines, &
+                                   [character(32) :: 'time', 'time_scaled', scene%probes%name], &
+                                   [character(32) :: 'time', 't sqrt(g/d)', spread('pressure', 1, size(scene%probes))], problem)
+   end subroutine start_probes
+
+   !> Measures and writes what is due at the base state, or everything at the end of the run.
+   subroutine record(self, scene, model, p, near, run, directory, last, problem)
+      class(recorder_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      type(step_t), intent(in) :: run
+      type(result_directory_t), intent(in) :: directory
+      logical, intent(in) :: last            !! the run ends here
+      type(failure), intent(inout) :: problem
+
+      if (due(self%when_energy)) then
+         call update_budget(self%budget, model, p, run%time, run%work_alpha, run%work_delta, run%work_walls)
+         call self%energy_table%row(energy_row(self, run), problem)
+      end if
+      if (self%probe_table%is_open()) then
+         if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
+      end if
+      if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, run, directory, problem)
+      self%time_before = run%time
+
+   contains
+
+      logical function due(when)
+         type(cadence_t), intent(in) :: when
+
+         due = when%is_due(run%step, run%time, self%time_before) .or. (last .and. .not. when%is_never())
+      end function due
+
+   end subroutine record
+
+   ! The columns of `energy_columns`.
+   pure function energy_row(self, run) result(row)
+      class(recorder_t), intent(in) :: self
+      type(step_t), intent(in) :: run
+      real(dp) :: row(size(energy_names))
+
+      associate (b => self%budget, now => self%budget%now, rest => self%budget%rest, de => self%budget%normaliser)
+         row = [run%time, run%time/self%time_unit, real(run%step, dp), run%dt, &
+                now%kinetic, now%potential, now%elastic, now%total(), b%q_alpha, b%q_delta, b%w_s, &
+                now%kinetic/de, (now%potential - rest%potential)/de, (now%elastic - rest%elastic)/de, &
+                (now%total() - rest%total())/de, b%q_alpha/de, b%q_delta/de, b%w_s/de, b%balance_error, &
+                run%mach, run%variation]
+      end associate
+   end function energy_row
+
+   pure function probe_row(self, model, p, near, time) result(row)
+      class(recorder_t), intent(in) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      real(dp), intent(in) :: time
+      real(dp) :: row(size(self%sensors) + 2)
+      integer :: k
+
+      row(1) = time
+      row(2) = time/self%time_unit
+      do k = 1, size(self%sensors)
+         row(k + 2) = measure_sensor(model, p, near, self%sensors(k))
+      end do
+   end function probe_row
+
+   !> Writes the base state as the next snapshot, particles in the order of their numbers.
+   subroutine save_snapshot(self, scene, model, p, run, directory, problem)
+      class(recorder_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(step_t), intent(in) :: run
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem
+      type(snapshot_field), allocatable :: fields(:)
+      character(:), allocatable :: path
+      integer, allocatable :: slot(:), id(:)
+      integer :: i, k
+
+      allocate (slot(p%n), fields(scene%output%n_fields))
+      do i = 1, p%n_own
+         if (p%id(i) > 0) slot(p%id(i)) = i
+      end do
+      id = [(i, i=1, p%n)]
+      do k = 1, size(fields)
+         call fill_field(fields(k), trim(scene%output%fields(k)), model, p, slot)
+      end do
+      self%head%time = run%time
+      self%head%step = run%step
+      path = directory%snapshot_path(self%series%count())
+      call write_snapshot(path, self%head, id, p%base%x(slot), p%base%y(slot), fields, scene%output%precision, problem)
+      if (problem%raised()) return
+      call self%series%add(directory%file(series_name), path(index(path, '/', back=.true.) + 1:), run%time, problem)
+   end subroutine save_snapshot
+
+   ! A field by its name in &output fields.
+   subroutine fill_field(field, name, model, p, slot)
+      type(snapshot_field), intent(inout) :: field
+      character(*), intent(in) :: name
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: slot(:)   !! (n) slot of each particle
+
+      field%name = name
+      select case (name)
+      case ('velocity')
+         field%unit = 'length/time'
+         field%long_name = 'velocity of the particle'
+         allocate (field%vectors(size(slot), 2))
+         field%vectors(:, 1) = p%base%u(slot)
+         field%vectors(:, 2) = p%base%v(slot)
+      case ('pressure')
+         field%unit = 'mass/(length time^2)'
+         field%long_name = 'pressure, c0^2 (rho - rho0)'
+         field%values = model%c0**2*p%base%s(slot)
+      case ('density')
+         field%unit = 'mass/length^3'
+         field%long_name = 'density'
+         field%values = model%rho0 + p%base%s(slot)
+      end select
+   end subroutine fill_field
+
+   !> Closes the tables.
+   subroutine finish(self, problem)
+      class(recorder_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem
+
+      call self%energy_table%close(problem)
+      call self%probe_table%close(problem)
+   end subroutine finish
+
+end module recorder

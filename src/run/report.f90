@@ -1,0 +1,227 @@
+!> What a run tells its user: start box, closing table and summary.
+module report
+   use budget, only: budget_t
+   use build_info, only: build_type, git_id, version
+   use errors, only: failure
+   use images, only: bottom_wall, left_wall, right_wall, top_wall
+   use kinds, only: dp
+   use model, only: model_t
+   use omp_lib, only: omp_get_max_threads
+   use particles, only: bytes_per_slot
+   use progress, only: duration_text
+   use run_log, only: log_t
+   use settings, only: settings_t
+   use summary, only: summary_t
+   use text, only: to_text
+   use time_step, only: step_t
+   use timers, only: timers_t
+   implicit none
+   private
+
+   public :: start_box, closing_table, write_summary_file, estimate_t, estimate
+
+   ! Measured cost of a step by utils/bench, for the estimate before a run.
+   real(dp), parameter :: typical_ns = 550.0_dp   ! per particle-step and core
+   ! Violent flow takes about twice as many steps as dt = CFL h/c0 would give (paper, sec. 4).
+   real(dp), parameter :: typical_step_share = 0.6_dp
+
+   !> What a run will cost, roughly.
+   type :: estimate_t
+      integer :: particles = 0
+      real(dp) :: dt = 0        !! largest step, CFL h/c0
+      real(dp) :: steps = 0
+      real(dp) :: seconds = 0   !! of wall time
+      real(dp) :: bytes = 0
+   end type estimate_t
+
+contains
+
+   !> Steps, time and memory from the particle count.
+   type(estimate_t) function estimate(scene, model, particles) result(cost)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: particles
+
+      cost%particles = particles
+      cost%dt = model%step_limit(0.0_dp)
+      cost%steps = scene%time%end_time/(typical_step_share*cost%dt)
+      if (scene%time%max_steps > 0) cost%steps = min(cost%steps, real(scene%time%max_steps, dp))
+      cost%seconds = cost%steps*particles*typical_ns*1.0e-9_dp/omp_get_max_threads()
+      ! Slots of padding and images, neighbour ranges and sorting besides the particles' own.
+      cost%bytes = particles*(1.25_dp*bytes_per_slot() + 60)
+   end function estimate
+
+   !> The box that a run starts with, and all that --check prints.
+   subroutine start_box(log, scene, model, cost)
+      type(log_t), intent(inout) :: log
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(estimate_t), intent(in) :: cost
+      character(160) :: lines(11)
+
+      associate (d => scene%scene%reference_length, speed => reference_speed(scene))
+         lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
+                    //', h = 2 dx = '//short(model%kernel%h)
+         lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
+         lines(3) = 'diffusion     constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
+         lines(4) = 'Reynolds      none: alpha = 0'
+         if (model%alpha > 0) lines(4) = 'Reynolds      Re = '//short(8*speed*d/(model%alpha*model%kernel%h*model%c0)) &
+            //', Re_dx = '//short(8*speed*model%dx/(model%alpha*model%kernel%h*model%c0)) &
+            //' (U = '//short(speed)//')'
+         lines(5) = 'uses          '//used(scene, model)
+         lines(6) = 'leaves out    '//unused(scene, model)
+         lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(model%cfl)//'), about ' &
+                    //to_text(nint(cost%steps))//' steps to t = '//short(scene%time%end_time)
+         lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
+         lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//to_text(omp_get_max_threads())//' threads' &
+                    //' (at '//short(typical_ns)//' ns per particle-step and core)'
+         lines(10) = 'output        energy '//trim(scene%output%energy)//', probes '//trim(scene%output%probes) &
+                     //', snapshots '//trim(scene%output%snapshots)
+         lines(11) = 'dynsph        '//version//' '//git_id//' '//build_type
+      end associate
+      call log%box(trim(scene%scene%title), lines)
+   end subroutine start_box
+
+   ! sqrt(g d), or the speed given where there is no gravity.
+   pure real(dp) function reference_speed(scene) result(speed)
+      type(settings_t), intent(in) :: scene
+
+      speed = sqrt(scene%fluid%gravity*scene%scene%reference_length)
+      if (.not. speed > 0) speed = scene%fluid%reference_speed
+   end function reference_speed
+
+   function used(scene, model) result(words)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+
+      words = 'RK4'
+      if (model%gravity > 0) words = words//', gravity'
+      if (any(model%walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//walls_text(model)//')'
+      if (model%alpha > 0) words = words//', viscosity'
+      if (model%delta > 0) words = words//', density diffusion'
+      if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
+   end function used
+
+   function unused(scene, model) result(words)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. model%gravity > 0) words = words//', gravity'
+      if (.not. any(model%walls%present)) words = words//', walls'
+      if (.not. model%alpha > 0) words = words//', viscosity'
+      if (.not. model%delta > 0) words = words//', density diffusion (no gradients, no second pass)'
+      if (size(scene%probes) == 0) words = words//', probes'
+      if (words == '') words = ', nothing'
+      words = words(3:)
+   end function unused
+
+   function walls_text(model) result(words)
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+
+      words = ''
+      if (model%walls%present(left_wall)) words = words//' left'
+      if (model%walls%present(right_wall)) words = words//' right'
+      if (model%walls%present(bottom_wall)) words = words//' bottom'
+      if (model%walls%present(top_wall)) words = words//' top'
+      words = words(2:)
+   end function walls_text
+
+   ! A number in four significant digits, without trailing zeros.
+   pure function short(value) result(words)
+      real(dp), intent(in) :: value
+      character(:), allocatable :: words
+      character(32) :: buffer, form
+      integer :: decimals
+
+      decimals = 3
+      if (abs(value) > 0) decimals = 3 - floor(log10(abs(value)))
+      if (decimals > 7 .or. decimals < -5) then
+         write (buffer, '(es10.3)') value
+         words = trim(adjustl(buffer))
+         return
+      end if
+      write (form, '(a, i0, a)') '(f0.', max(0, decimals), ')'
+      write (buffer, form) value
+      words = trim(buffer)
+      do while (index(words, '.') > 0 .and. scan(words(len(words):), '0.') > 0)
+         decimals = len(words) - 1
+         if (words(len(words):) == '.') then
+            words = words(:decimals)
+            exit
+         end if
+         words = words(:decimals)
+      end do
+      if (words == '') words = '0'
+      if (words(1:1) == '.') words = '0'//words
+      if (len(words) > 1) then
+         if (words(1:2) == '-.') words = '-0'//words(2:)
+      end if
+   end function short
+
+   !> Time by phase, budget and files.
+   subroutine closing_table(log, timers, seconds, budget, run, path)
+      type(log_t), intent(inout) :: log
+      type(timers_t), intent(in) :: timers
+      real(dp), intent(in) :: seconds       !! wall time of the run
+      type(budget_t), intent(in) :: budget
+      type(step_t), intent(in) :: run
+      character(*), intent(in) :: path      !! result directory
+      character(100), allocatable :: lines(:)
+
+      lines = [character(100) :: &
+               'Q_alpha '//short(budget%q_alpha/budget%normaliser)//', Q_delta '//short(budget%q_delta/budget%normaliser) &
+               //', Q_total '//short((budget%q_alpha + budget%q_delta)/budget%normaliser)//' of dE_Mtot', &
+               'wall work '//short(budget%w_s/budget%normaliser)//', largest balance error '//short(budget%largest_error), &
+               'largest Ma '//short(run%largest_mach)//', largest |rho - rho0|/rho0 '//short(run%largest_variation), &
+               to_text(run%crossings)//' wall crossings, '//to_text(run%singular)//' particle-steps without gradient, ' &
+               //to_text(run%repeated)//' steps repeated']
+      call log%box('Budget', lines)
+      lines = [character(100) :: timers%table(seconds)]
+      call log%box('Wall time', lines)
+      call log%line('results in '//path//': energy.dat, probes.dat, snapshots.vtkhdf.series, summary.txt, run.log')
+   end subroutine closing_table
+
+   !> The file of `key = value` lines.
+   subroutine write_summary_file(path, status, particles, run, seconds, budget, problem)
+      character(*), intent(in) :: path
+      character(*), intent(in) :: status
+      integer, intent(in) :: particles
+      type(step_t), intent(in) :: run
+      real(dp), intent(in) :: seconds
+      type(budget_t), intent(in) :: budget
+      type(failure), intent(inout) :: problem
+      type(summary_t) :: file
+      real(dp) :: rate
+
+      rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
+      call file%add('status', status)
+      call file%add('particles', particles)
+      call file%add('steps', run%step)
+      call file%add('time', run%time)
+      call file%add('threads', omp_get_max_threads())
+      call file%add('run_seconds', seconds)
+      call file%add('particle_steps_per_second', rate)
+      call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/max(rate, tiny(1.0_dp)))
+      call file%add('dE_Mtot', budget%normaliser)
+      call file%add('energy_balance_error', budget%largest_error)
+      call file%add('wall_work', budget%w_s/budget%normaliser)
+      call file%add('Q_alpha', budget%q_alpha/budget%normaliser)
+      call file%add('Q_delta', budget%q_delta/budget%normaliser)
+      call file%add('Q_total', (budget%q_alpha + budget%q_delta)/budget%normaliser)
+      call file%add('max_density_variation', run%largest_variation)
+      call file%add('max_mach', run%largest_mach)
+      call file%add('wall_crossings', run%crossings)
+      call file%add('singular_gradients', run%singular)
+      call file%add('steps_repeated', run%repeated)
+      call file%add('time_kinetic_maximum', budget%peak_time(1))
+      call file%add('time_potential_maximum', budget%peak_time(2))
+      call file%add('time_kinetic_maximum_2', budget%peak_time(3))
+      call file%add('time_elastic_peak', budget%peak_time(4))
+      call file%write(path, problem)
+   end subroutine write_summary_file
+
+end module report

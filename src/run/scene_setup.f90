@@ -1,0 +1,101 @@
+!> From the input to the model's constants and the particles at t = 0.
+module scene_setup
+   use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
+   use initial_pressure, only: pressure_at
+   use kernel, only: new_kernel
+   use kinds, only: dp
+   use model, only: model_t
+   use particles, only: allocate_particles, particles_t
+   use settings, only: body_settings, is_wall, settings_t
+   implicit none
+   private
+
+   public :: set_up_model, set_up_particles, count_particles
+
+contains
+
+   !> The constants in paper symbols.
+   pure type(model_t) function set_up_model(scene) result(model)
+      type(settings_t), intent(in) :: scene   !! checked input
+
+      model%dx = scene%spacing()
+      model%kernel = new_kernel(scene%smoothing_length())
+      model%c0 = scene%fluid%sound_speed
+      model%rho0 = scene%fluid%density
+      model%gravity = scene%fluid%gravity
+      model%alpha = scene%alpha_total()
+      model%delta = scene%model%delta
+      model%cfl = scene%time%cfl
+      model%walls = set_up_walls(scene)
+   end function set_up_model
+
+   pure type(walls_t) function set_up_walls(scene) result(walls)
+      type(settings_t), intent(in) :: scene
+
+      associate (domain => scene%domain, fluid => scene%fluid)
+         walls%present(left_wall) = is_wall(domain%left)
+         walls%present(right_wall) = is_wall(domain%right)
+         walls%present(bottom_wall) = is_wall(domain%bottom)
+         walls%present(top_wall) = is_wall(domain%top)
+         walls%at = [domain%lower(1), domain%upper(1), domain%lower(2), domain%upper(2)]
+         if (domain%images == 'hydrostatic') &
+            walls%density_slope = [0.0_dp, -fluid%density*fluid%gravity/fluid%sound_speed**2]
+      end associate
+   end function set_up_walls
+
+   !> Columns and rows of particles in a body: spacing is dx, stretched to fill the body exactly.
+   pure function lattice(body, dx) result(n)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+      integer :: n(2)
+
+      n = max(1, nint((body%upper - body%lower)/dx))
+   end function lattice
+
+   !> Particles of the whole scene.
+   pure integer function count_particles(scene) result(n)
+      type(settings_t), intent(in) :: scene
+      integer :: k
+
+      n = 0
+      do k = 1, size(scene%bodies)
+         n = n + product(lattice(scene%bodies(k), scene%spacing()))
+      end do
+   end function count_particles
+
+   !> Fills each body with particles on a square lattice, half a spacing from its edges.
+   !!
+   !! The state is left in `next`, from where the first step takes it. The mass is rho times the cell's area.
+   subroutine set_up_particles(scene, model, p)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(out) :: p
+      integer :: k, i, j, n(2), slot
+      real(dp) :: cell(2), position(2)
+
+      call allocate_particles(p, count_particles(scene))
+      slot = 0
+      do k = 1, size(scene%bodies)
+         associate (body => scene%bodies(k))
+            n = lattice(body, model%dx)
+            cell = (body%upper - body%lower)/n
+            do j = 1, n(2)
+               do i = 1, n(1)
+                  slot = slot + 1
+                  position = body%lower + cell*([i, j] - 0.5_dp)
+                  p%id(slot) = slot
+                  p%next%x(slot) = position(1)
+                  p%next%y(slot) = position(2)
+                  p%next%u(slot) = body%velocity(1)
+                  p%next%v(slot) = body%velocity(2)
+                  p%next%s(slot) = pressure_at(scene, body, position)/model%c0**2
+                  p%next%w(slot) = product(cell)
+                  p%m(slot) = (model%rho0 + p%next%s(slot))*product(cell)
+               end do
+            end do
+         end associate
+      end do
+      p%n_own = slot
+   end subroutine set_up_particles
+
+end module scene_setup

@@ -1,0 +1,164 @@
+!> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
+module simulation
+   use errors, only: exit_numerics, failure
+   use kinds, only: dp
+   use model, only: model_t
+   use neighbours, only: neighbours_t
+   use particles, only: particles_t
+   use progress, only: progress_t
+   use recorder, only: recorder_t
+   use report, only: closing_table, estimate, start_box, write_summary_file
+   use result_directory, only: result_directory_t, summary_name
+   use run_log, only: log_t
+   use scene_setup, only: set_up_model, set_up_particles
+   use settings, only: settings_t
+   use text, only: to_text
+   use time_step, only: advance, refresh, step_t
+   use timers, only: timers_t, wall_seconds
+   implicit none
+   private
+
+   public :: simulate
+
+   integer, parameter :: phase_output = 5
+   character(*), parameter :: phases(5) = [character(32) :: 'sort, images, neighbours', 'gradients, viscosity', &
+                                           'density diffusion, stage 1', 'stages 2 to 4', 'energies, probes, snapshots']
+
+contains
+
+   !> Runs a checked scene and writes its results.
+   subroutine simulate(scene, input_text, directory, log, problem)
+      type(settings_t), intent(in) :: scene
+      character(*), intent(in) :: input_text   !! complete input
+      type(result_directory_t), intent(in) :: directory
+      type(log_t), intent(inout) :: log
+      type(failure), intent(inout) :: problem   !! exit_numerics, exit_files
+      type(model_t) :: model
+      type(particles_t) :: p
+      type(neighbours_t) :: near
+      type(step_t) :: run
+      type(recorder_t) :: recorder
+      type(timers_t) :: timers
+      type(failure) :: closing
+      character(:), allocatable :: status
+      real(dp) :: started
+
+      started = wall_seconds()
+      call timers%initialise(phases)
+      model = set_up_model(scene)
+      call set_up_particles(scene, model, p)
+      call start_box(log, scene, model, estimate(scene, model, p%n))
+      call refresh(model, p, near, run, timers)
+      call recorder%start(scene, input_text, model, p, directory, problem)
+      if (problem%raised()) return
+      call main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
+      ! A failed run keeps all that it has measured.
+      call recorder%finish(closing)
+      call write_summary_file(directory%file(summary_name), status, p%n, run, wall_seconds() - started, recorder%budget, closing)
+      if (closing%raised()) call problem%raise(closing%code, closing%message)
+      call log%report_warnings()
+      call closing_table(log, timers, wall_seconds() - started, recorder%budget, run, directory%path)
+   end subroutine simulate
+
+   subroutine main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      type(recorder_t), intent(inout) :: recorder
+      type(result_directory_t), intent(in) :: directory
+      type(log_t), intent(inout) :: log
+      type(timers_t), intent(inout) :: timers
+      character(:), allocatable, intent(out) :: status
+      type(failure), intent(inout) :: problem
+      type(progress_t) :: progress
+      real(dp) :: started
+
+      started = wall_seconds()
+      call progress%start(0.0_dp, scene%time%end_time, 0, p%n)
+      call progress%limit(scene%time%max_steps, scene%time%max_wall_time)
+      do
+         status = reason_to_end(scene, run, wall_seconds() - started)
+         call timers%start(phase_output)
+         call recorder%record(scene, model, p, near, run, directory, status /= '', problem)
+         call timers%stop(phase_output)
+         if (problem%raised()) status = 'failed: output'
+         if (status /= '') exit
+         call advance(model, p, near, run, scene%time%end_time, timers)
+         if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+         if (.not. run%scattered) call watch_limits(log, run)
+         if (.not. problem%raised()) call refresh(model, p, near, run, timers)
+         if (run%scattered) call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank ' &
+                                               //'after step '//to_text(run%step)//': close the open side it left by')
+         if (problem%raised()) then
+            status = 'failed: numerics'
+            ! The state before the step is still there; a second failure would hide the first.
+            call keep_last_state(recorder, scene, model, p, run, directory)
+            exit
+         end if
+         call progress%update(log, run%time, run%dt, run%step)
+      end do
+   end subroutine main_loop
+
+   ! Why the run ends at this state; '' if it goes on.
+   function reason_to_end(scene, run, seconds) result(status)
+      type(settings_t), intent(in) :: scene
+      type(step_t), intent(in) :: run
+      real(dp), intent(in) :: seconds   !! of wall time so far
+      character(:), allocatable :: status
+
+      status = ''
+      if (run%time >= scene%time%end_time) then
+         status = 'finished'
+      else if (scene%time%max_steps > 0 .and. run%step >= scene%time%max_steps) then
+         status = 'stopped: max_steps'
+      else if (scene%time%max_wall_time > 0 .and. seconds > scene%time%max_wall_time) then
+         status = 'stopped: max_wall_time'
+      end if
+   end function reason_to_end
+
+   ! The assumptions of the weakly-compressible model, eq. 4 and sec. 2.
+   subroutine watch_limits(log, run)
+      type(log_t), intent(inout) :: log
+      type(step_t), intent(in) :: run
+      real(dp), parameter :: mach_limit = 0.1_dp, variation_limit = 0.01_dp
+
+      if (run%mach > mach_limit .and. log%warning_count('Mach number') == 0) call log%warn('Mach number', &
+         'Mach number above 0.1 from t = '//to_text(run%time)//' on; a larger sound_speed would hold it')
+      if (run%variation > variation_limit .and. log%warning_count('density') == 0) call log%warn('density', &
+         'density varies by more than 1 % from t = '//to_text(run%time)//' on')
+   end subroutine watch_limits
+
+   subroutine explain_loss(model, p, run, problem)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(step_t), intent(in) :: run
+      type(failure), intent(inout) :: problem
+
+      associate (i => run%lost_slot)
+         call problem%raise(exit_numerics, &
+            'the solution left its range in step '//to_text(run%step)//' at t = '//to_text(run%time)//': particle ' &
+            //to_text(p%id(i))//', before the step at ('//to_text(p%base%x(i))//', '//to_text(p%base%y(i))//'), has speed/c0 ' &
+            //to_text(norm2([p%next%u(i), p%next%v(i)])/model%c0)//' and (rho - rho0)/rho0 '//to_text(p%next%s(i)/model%rho0) &
+            //'; a smaller cfl or a larger sound_speed may help. The state before the step is in the last snapshot.')
+      end associate
+   end subroutine explain_loss
+
+   subroutine keep_last_state(recorder, scene, model, p, run, directory)
+      type(recorder_t), intent(inout) :: recorder
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(step_t), intent(in) :: run
+      type(result_directory_t), intent(in) :: directory
+      type(step_t) :: before
+      type(failure) :: ignored
+
+      before = run
+      before%time = run%time - run%dt
+      before%step = run%step - 1
+      call recorder%save_snapshot(scene, model, p, before, directory, ignored)
+   end subroutine keep_last_state
+
+end module simulation

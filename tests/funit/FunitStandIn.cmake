@@ -1,0 +1,48 @@
+# Stands in for pFUnit's CMake package where pFUnit is not installed: add_pfunit_ctest with the arguments that are used here.
+
+add_library(funit STATIC ${CMAKE_CURRENT_LIST_DIR}/funit_values.f90 ${CMAKE_CURRENT_LIST_DIR}/funit.f90)
+add_executable(funit_translate ${CMAKE_CURRENT_LIST_DIR}/translate.f90)
+target_include_directories(funit PUBLIC ${CMAKE_Fortran_MODULE_DIRECTORY})
+foreach(target IN ITEMS funit funit_translate)
+   target_compile_options(${target} PRIVATE -std=f2018 -Wall -Wextra -Wimplicit-interface)
+endforeach()
+
+# add_pfunit_ctest(name TEST_SOURCES a.pf ... [OTHER_SOURCES x.f90 ...] [LINK_LIBRARIES library ...])
+#
+# One executable and one ctest of this name for the suites in all TEST_SOURCES.
+function(add_pfunit_ctest name)
+   funit_add_executable(${name} ${ARGN})
+   add_test(NAME ${name} COMMAND ${name})
+endfunction()
+
+# The executable alone; same arguments.
+function(funit_add_executable name)
+   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "TEST_SOURCES;OTHER_SOURCES;LINK_LIBRARIES")
+   if(arg_UNPARSED_ARGUMENTS OR NOT arg_TEST_SOURCES)
+      message(FATAL_ERROR "add_pfunit_ctest(${name}): no TEST_SOURCES, or arguments the stand-in for pFUnit does not know: "
+         "${arg_UNPARSED_ARGUMENTS}")
+   endif()
+
+   set(directory ${CMAKE_CURRENT_BINARY_DIR}/generated/${name})
+   file(MAKE_DIRECTORY ${directory})
+   set(generated ${directory}/main.f90)
+   set(declarations "")
+   set(calls "")
+   foreach(source IN LISTS arg_TEST_SOURCES)
+      get_filename_component(path ${source} ABSOLUTE)
+      get_filename_component(suite ${source} NAME_WE)
+      add_custom_command(OUTPUT ${directory}/${suite}.F90
+         COMMAND funit_translate ${path} ${directory}/${suite}.F90
+         DEPENDS ${path} funit_translate VERBATIM)
+      list(APPEND generated ${directory}/${suite}.F90)
+      string(APPEND declarations "   external :: ${suite}_suite\n")
+      string(APPEND calls "   call ${suite}_suite()\n")
+   endforeach()
+   file(GENERATE OUTPUT ${directory}/main.f90 CONTENT
+      "program funit_main\n   use funit, only: funit_finish\n   implicit none\n${declarations}${calls}   call funit_finish()\nend program\n")
+
+   add_executable(${name} ${generated} ${arg_OTHER_SOURCES})
+   target_link_libraries(${name} PRIVATE ${arg_LINK_LIBRARIES} funit)
+   # Generated code may warn: -Werror among the flags of the whole build is not meant for it.
+   target_compile_options(${name} PRIVATE -Wno-error)
+endfunction()

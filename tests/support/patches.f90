@@ -1,0 +1,241 @@
+!> Small seeded sets of particles that the tests of neighbours, sums and steps share.
+module patches
+   use images, only: bottom_wall, fill_images, left_wall, right_wall, walls_t
+   use kernel, only: new_kernel
+   use kinds, only: dp, i8
+   use model, only: model_t
+   use neighbours, only: list_ranges, neighbours_t, sort_particles
+   use particles, only: allocate_particles, particles_t
+   implicit none
+   private
+
+   public :: random_t, points_t, open_model, tank_model, fill_patch, put_particles, set_linear_density
+   public :: find_neighbours, points_of, with_images, scatter
+
+   real(dp), parameter, public :: spacing = 0.05_dp                    !! dx of the models below
+   real(dp), parameter, public :: tank_width = 0.6873_dp               !! no multiple of dx
+   real(dp), parameter, public :: floor_at = -0.0217_dp                !! y of the tank's bottom
+
+   !> Minimal generator, so that every machine tests the same particles.
+   type :: random_t
+      integer(i8) :: state = 1
+   contains
+      procedure :: between
+   end type random_t
+
+   !> Particles in the order of their numbers, and perhaps all their images.
+   type :: points_t
+      real(dp), allocatable :: x(:), y(:), u(:), v(:), s(:), w(:), m(:)
+      integer, allocatable :: owner(:)                !! number of the particle, or of the image's source
+      real(dp), allocatable :: sign_x(:), sign_y(:)   !! -1 if mirrored in that direction
+   end type points_t
+
+contains
+
+   !> A number between the two; the next one at each call.
+   real(dp) function between(self, lower, upper)
+      class(random_t), intent(inout) :: self
+      real(dp), intent(in) :: lower, upper
+
+      self%state = mod(16807_i8*self%state, 2147483647_i8)
+      between = lower + (upper - lower)*(real(self%state, dp)/2147483647.0_dp)
+   end function between
+
+   !> Constants that differ from 1 where they could hide a missing factor; no walls, no gravity.
+   type(model_t) function open_model() result(model)
+      model%kernel = new_kernel(2*spacing)
+      model%dx = spacing
+      model%c0 = 10
+      model%rho0 = 1.3_dp
+      model%alpha = 0.03_dp
+      model%delta = 0.1_dp
+      model%cfl = 1.5_dp
+   end function open_model
+
+   !> The same with gravity, a floor and walls left and right, and hydrostatic images.
+   type(model_t) function tank_model() result(model)
+      model = open_model()
+      model%gravity = 0.9_dp
+      model%walls%present([left_wall, right_wall, bottom_wall]) = .true.
+      model%walls%at = [0.0_dp, tank_width, floor_at, 0.0_dp]
+      model%walls%density_slope = [0.0_dp, -model%rho0*model%gravity/model%c0**2]
+   end function tank_model
+
+   !> A disordered block of n(1) x n(2) particles from `lower` to `upper`, left in `next` as by the scene set-up.
+   subroutine fill_patch(model, p, lower, upper, n, seed, speed)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(out) :: p
+      real(dp), intent(in) :: lower(2), upper(2)
+      integer, intent(in) :: n(2), seed
+      real(dp), intent(in) :: speed   !! of each component at most
+      type(points_t) :: points
+      type(random_t) :: random
+      real(dp) :: cell(2)
+      integer :: i, j, k
+
+      random%state = seed
+      points = empty_points(product(n))
+      cell = (upper - lower)/n
+      do j = 1, n(2)
+         do i = 1, n(1)
+            k = (j - 1)*n(1) + i
+            points%x(k) = lower(1) + cell(1)*(i - 0.5_dp + random%between(-0.4_dp, 0.4_dp))
+            points%y(k) = lower(2) + cell(2)*(j - 0.5_dp + random%between(-0.4_dp, 0.4_dp))
+            points%u(k) = random%between(-speed, speed)
+            points%v(k) = random%between(-speed, speed)
+            points%s(k) = model%rho0*random%between(-0.01_dp, 0.01_dp)
+            points%w(k) = product(cell)*random%between(0.8_dp, 1.2_dp)
+         end do
+      end do
+      points%m = (model%rho0 + points%s)*points%w
+      call put_particles(points, p)
+   end subroutine fill_patch
+
+   !> Particles with these states in `next`; the mass is taken as given.
+   subroutine put_particles(points, p)
+      type(points_t), intent(in) :: points
+      type(particles_t), intent(out) :: p
+      integer :: n, i
+
+      n = size(points%x)
+      call allocate_particles(p, n)
+      p%n_own = n
+      p%id(1:n) = [(i, i=1, n)]
+      p%m(1:n) = points%m
+      p%next%x(1:n) = points%x
+      p%next%y(1:n) = points%y
+      p%next%u(1:n) = points%u
+      p%next%v(1:n) = points%v
+      p%next%s(1:n) = points%s
+      p%next%w(1:n) = points%w
+   end subroutine put_particles
+
+   !> rho - rho0 = constant + slope.r, in `next`; volumes stay and masses follow.
+   subroutine set_linear_density(model, p, constant, slope)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      real(dp), intent(in) :: constant, slope(2)
+
+      associate (n => p%n_own)
+         p%next%s(1:n) = constant + slope(1)*p%next%x(1:n) + slope(2)*p%next%y(1:n)
+         p%m(1:n) = (model%rho0 + p%next%s(1:n))*p%next%w(1:n)
+      end associate
+   end subroutine set_linear_density
+
+   !> Sorts into `base`, mirrors and lists, as each step does.
+   subroutine find_neighbours(model, p, near, step_ahead, slack)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      real(dp), intent(in) :: step_ahead
+      real(dp), intent(in), optional :: slack
+      logical :: scattered
+
+      near%slack = 0.02_dp*model%dx
+      if (present(slack)) near%slack = slack
+      call sort_particles(near, p, model%kernel, model%walls, model%dx, step_ahead, scattered)
+      if (scattered) error stop 'the test''s particles are too far from each other'
+      call fill_images(near%images, model%walls, p%n_own, p%base)
+      call list_ranges(near, p, model%kernel, 2*near%tau)
+   end subroutine find_neighbours
+
+   !> The base state in the order of the particles' numbers.
+   type(points_t) function points_of(p) result(points)
+      type(particles_t), intent(in) :: p
+
+      points = empty_points(p%n)
+      call scatter(p, p%base%x, points%x)
+      call scatter(p, p%base%y, points%y)
+      call scatter(p, p%base%u, points%u)
+      call scatter(p, p%base%v, points%v)
+      call scatter(p, p%base%s, points%s)
+      call scatter(p, p%base%w, points%w)
+      call scatter(p, p%m, points%m)
+   end function points_of
+
+   !> Brings an array over slots into the order of the particles' numbers.
+   subroutine scatter(p, by_slot, by_id)
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: by_slot(:)
+      real(dp), intent(inout) :: by_id(:)   !! (n)
+      integer :: i
+
+      do i = 1, p%n_own
+         if (p%id(i) > 0) by_id(p%id(i)) = by_slot(i)
+      end do
+   end subroutine scatter
+
+   !> The particles and all images that they could have, however far away: written from the definition.
+   type(points_t) function with_images(points, walls) result(all)
+      type(points_t), intent(in) :: points
+      type(walls_t), intent(in) :: walls
+      type(points_t) :: image
+      integer :: side(2), pair(2), k
+
+      all = points
+      do k = 1, 4
+         if (walls%present(k)) call append(all, mirrored(points, walls, k))
+      end do
+      do k = 1, 4
+         side = [merge(1, 2, k <= 2), merge(3, 4, mod(k, 2) == 1)]
+         pair = side
+         if (.not. all_of(walls%present(pair))) cycle
+         image = mirrored(points, walls, pair(1))
+         call append(all, mirrored(image, walls, pair(2)))
+      end do
+
+   contains
+
+      pure logical function all_of(flags)
+         logical, intent(in) :: flags(:)
+
+         all_of = count(flags) == size(flags)
+      end function all_of
+
+   end function with_images
+
+   ! The points mirrored at one wall.
+   type(points_t) function mirrored(points, walls, wall) result(image)
+      type(points_t), intent(in) :: points
+      type(walls_t), intent(in) :: walls
+      integer, intent(in) :: wall
+
+      image = points
+      if (wall == left_wall .or. wall == right_wall) then
+         image%x = walls%at(wall) - (points%x - walls%at(wall))
+         image%u = -points%u
+         image%sign_x = -points%sign_x
+      else
+         image%y = walls%at(wall) - (points%y - walls%at(wall))
+         image%v = -points%v
+         image%sign_y = -points%sign_y
+      end if
+      image%s = points%s + walls%density_slope(1)*(image%x - points%x) + walls%density_slope(2)*(image%y - points%y)
+   end function mirrored
+
+   subroutine append(all, more)
+      type(points_t), intent(inout) :: all
+      type(points_t), intent(in) :: more
+
+      all%x = [all%x, more%x]
+      all%y = [all%y, more%y]
+      all%u = [all%u, more%u]
+      all%v = [all%v, more%v]
+      all%s = [all%s, more%s]
+      all%w = [all%w, more%w]
+      all%m = [all%m, more%m]
+      all%owner = [all%owner, more%owner]
+      all%sign_x = [all%sign_x, more%sign_x]
+      all%sign_y = [all%sign_y, more%sign_y]
+   end subroutine append
+
+   type(points_t) function empty_points(n) result(points)
+      integer, intent(in) :: n
+      integer :: i
+
+      allocate (points%x(n), points%y(n), points%u(n), points%v(n), points%s(n), points%w(n), points%m(n), source=0.0_dp)
+      allocate (points%sign_x(n), points%sign_y(n), source=1.0_dp)
+      points%owner = [(i, i=1, n)]
+   end function empty_points
+
+end module patches

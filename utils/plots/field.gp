@@ -1,0 +1,114 @@
+# Particles of one snapshot coloured by speed and by pressure.
+#
+# usage: gnuplot -e "dir='RESULT'" utils/plots/field.gp      the last snapshot, as RESULT/field.png
+#
+# Optional settings in -e:
+#   snapshot='FILE.vtkhdf'    another snapshot                 png='FILE.png'     another picture
+#   panels='velocity pressure'  names of arrays to colour by, vectors by magnitude
+#   x_min=, x_max=, y_max=    the same frame for several pictures
+#   table='FILE.txt'          an already converted snapshot    converter='...'    dynsph-snapshot-to-text
+if (!exists("plots")) plots = 'utils/plots'
+load plots.'/style.gp'
+if (!exists("converter")) converter = 'build/bin/dynsph-snapshot-to-text'
+if (!exists("png")) png = dir.'/field.png'
+if (!exists("panels")) panels = 'velocity pressure'
+temporary = ''
+if (!exists("table")) {
+   if (!exists("snapshot")) { snapshot = system("ls '".dir."'/snapshot_??????.vtkhdf | tail -n 1") }
+   temporary = system('mktemp')
+   table = temporary
+   error = system("'".converter."' '".snapshot."' '".table."' 2>&1")
+   if (strlen(error) > 0) { remove = system("rm -f '".temporary."'"); print error; exit status 3 }
+}
+
+g = real(head_text(table, 'gravity'))
+d = real(head_text(table, 'reference_length'))
+rho = real(head_text(table, 'density'))
+dx = real(head_text(table, 'spacing'))
+time = real(head_text(table, 'time'))
+names = system("sed -n '/^[^#]/{p;q}' '".table."'")
+number(name) = sum [k=1:words(names)] (word(names, k) eq name ? k : 0)
+range(name, k) = real(word(head_text(table, 'range of '.name), k))   # smallest, largest, mean, deviation
+xc = number('x'); yc = number('y')
+scaled = g > 0 && d > 0                # otherwise quantities are shown as they are
+if (!scaled) { d = 1; g = 1; rho = 1 }
+
+if (!exists("x_min")) x_min = (range('x', 1) - 0.5*dx)/d
+if (!exists("x_max")) x_max = (range('x', 2) + 0.5*dx)/d
+if (!exists("y_min")) y_min = (range('y', 1) - 0.5*dx)/d
+if (!exists("y_max")) y_max = (range('y', 2) + 0.5*dx)/d
+margin = 0.01*(x_max - x_min)
+wide = x_max - x_min + 2*margin
+high = y_max - y_min + 2*margin
+
+# Pixels: one unit of length is the same in both directions and in all panels.
+left = 80; right = 150; above = 50; below = 34; foot = 26
+frame_x = 1170
+frame_y = int(frame_x*high/wide)
+if (frame_y > 900) { frame_x = int(900.0*frame_x/frame_y); frame_y = 900 }
+if (frame_x < 400) { frame_x = 400 }
+n = words(panels)
+size_x = left + frame_x + right
+size_y = n*(frame_y + above + below) + foot
+
+label(name) = name eq 'velocity' ? (scaled ? '|u| / √(gd)' : '|u|') : name eq 'pressure' ? (scaled ? 'p / (ρ_0 g d)' : 'p') : name
+scale_of(name) = name eq 'velocity' ? sqrt(g*d) : name eq 'pressure' ? rho*g*d : 1.0
+heading = head_text(table, 'title')
+if (scaled) { heading = heading.sprintf('     t √(g/d) = %.2f', time*sqrt(g/d)) } else { heading = heading.sprintf('     t = %.4g', time) }
+
+set terminal pngcairo size size_x,size_y font font
+set output png
+set multiplot
+set size ratio -1
+unset key
+unset grid
+set border 15
+set xrange [x_min - margin:x_max + margin]
+set yrange [y_min - margin:y_max + margin]
+set xtics scale 0.4
+if (high < 1) { set ytics 0.2 scale 0.4 } else { set ytics scale 0.4 }
+set ylabel scaled ? 'y / d' : 'y' offset 1,0
+set lmargin at screen 1.0*left/size_x
+set rmargin at screen 1.0*(left + frame_x)/size_x
+set style fill solid noborder
+
+# Discs of the particle's size; below about two pixels they cost time and show no more than a dot does.
+pixels = frame_x*dx/d/wide
+do for [i=1:n] {
+   name = word(panels, i)
+   bottom = foot + (n - i)*(frame_y + above + below) + below
+   set bmargin at screen 1.0*bottom/size_y
+   set tmargin at screen 1.0*(bottom + frame_y)/size_y
+   set colorbox user origin screen 1.0*(left + frame_x + 18)/size_x, screen 1.0*bottom/size_y \
+      size screen 16.0/size_x, screen 1.0*frame_y/size_y
+   place = number(name)
+   scale = scale_of(name)
+   if (place == 0) {
+      print sprintf("%s: no '%s' in this snapshot", png, name)
+      continue
+   }
+   # A few extreme particles must not take all the colours.
+   smallest = range(name, 1)/scale; largest = range(name, 2)/scale
+   mean = range(name, 3)/scale; spread = 3*range(name, 4)/scale
+   low = mean - spread > smallest ? mean - spread : smallest
+   high_end = mean + spread < largest ? mean + spread : largest
+   if (low < 0.2*high_end && (smallest >= 0 || name eq 'pressure')) { low = 0 }
+   if (high_end <= low) { high_end = low + 1 }
+   set cbrange [low:high_end]
+   set cblabel label(name) offset 0.5,0
+   set title heading noenhanced font 'DejaVu Sans,14' offset 0,-0.3
+   if (i > 1) { unset title }
+   set xlabel i == n ? (scaled ? 'x / d' : 'x') : '' offset 0,0.3
+   if (pixels > 2) {
+      plot table using (column(xc)/d):(column(yc)/d):(0.56*dx/d):(column(place)/scale) with circles linecolor palette
+      continue
+   }
+   if (pixels > 0.6) {
+      plot table using (column(xc)/d):(column(yc)/d):(column(place)/scale) with points pointtype 7 pointsize 0.22 linecolor palette
+      continue
+   }
+   plot table using (column(xc)/d):(column(yc)/d):(column(place)/scale) with dots linecolor palette
+}
+unset multiplot
+unset output
+if (strlen(temporary) > 0) { remove = system("rm -f '".temporary."'") }

@@ -1,0 +1,35 @@
+# What all pictures share: fonts, colours that the colour-blind can tell apart, grid,
+# and how a title is found. Loaded by the other scripts.
+set encoding utf8
+set datafile columnheaders          # columns are addressed by name: later ones may be added
+set datafile missing 'NaN'
+
+font = 'DejaVu Sans,13'
+set border 3 linewidth 1 linecolor rgb '#404040'
+set tics nomirror out scale 0.6 textcolor rgb '#202020'
+set grid linetype 1 linewidth 0.6 linecolor rgb '#e0e0e0'
+set key outside right top vertical Left reverse samplen 2.5 spacing 1.3
+
+# Okabe and Ito's colours.
+black  = '#202020'
+blue   = '#0072b2'
+red    = '#d55e00'
+green  = '#009e73'
+orange = '#e69f00'
+purple = '#cc79a7'
+sky    = '#56b4e9'
+set linetype 1 linecolor rgb blue linewidth 1.8
+set linetype 2 linecolor rgb red linewidth 1.8
+set linetype 3 linecolor rgb green linewidth 1.8
+set linetype 4 linecolor rgb purple linewidth 1.8
+set linetype 5 linecolor rgb orange linewidth 1.8
+set linetype 6 linecolor rgb sky linewidth 1.8
+set linetype 7 linecolor rgb black linewidth 1.8
+
+# viridis: equal steps of the quantity look equal, also in grey.
+set palette defined (0.00 '#440154', 0.125 '#472d7b', 0.25 '#3b528b', 0.375 '#2c728e', 0.50 '#21918c', \
+   0.625 '#28ae80', 0.75 '#5ec962', 0.875 '#addc30', 1.00 '#fde725')
+
+# The value after '# key: ' in a file's head, '' when it is not there.
+head_text(file, key) = system("sed -n -e '/^[^#]/q' -e 's/^# ".key.": *//p' '".file."'")
+scaled_time = 't √(g/d)'
