@@ -26,7 +26,8 @@ module budget
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
       real(dp) :: peak_time(4) = 0           !! first kinetic, potential, second kinetic, elastic maximum
-      real(dp), private :: peak(4) = -huge(1.0_dp)
+      real(dp), private :: peak = -huge(1.0_dp)
+      integer, private :: sought = 1         !! which of the maxima comes next
    end type budget_t
 
 contains
@@ -69,7 +70,6 @@ contains
       type(particles_t), intent(in) :: p
       real(dp), intent(in) :: time
       real(dp), intent(in) :: work_alpha, work_delta, work_walls   !! given to the fluid since t = 0
-      integer :: k
 
       call measure_energies(model, p, self%now)
       self%q_alpha = -work_alpha
@@ -77,17 +77,27 @@ contains
       self%w_s = work_walls
       self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%initial%total())/self%normaliser
       self%largest_error = max(self%largest_error, abs(self%balance_error))
-      ! Each maximum counts from the one before it on, so a new earlier one restarts the later ones.
-      associate (values => [self%now%kinetic, self%now%potential, self%now%kinetic, self%now%elastic])
-         do k = 1, 4
-            if (values(k) > self%peak(k)) then
-               self%peak(k) = values(k)
-               self%peak_time(k) = time
-               self%peak(k + 1:) = -huge(1.0_dp)
-               exit
-            end if
-         end do
-      end associate
+      call seek_peak(self, time)
    end subroutine update_budget
+
+   ! A maximum of the energies in turn; the next one is sought once energy has fallen clearly from it.
+   subroutine seek_peak(self, time)
+      type(budget_t), intent(inout) :: self
+      real(dp), intent(in) :: time
+      real(dp), parameter :: clear_fall = 0.02_dp   ! share of the normaliser
+      real(dp) :: values(4)
+
+      values = [self%now%kinetic, self%now%potential, self%now%kinetic, self%now%elastic]
+      associate (value => values(self%sought))
+         if (value > self%peak) then
+            self%peak = value
+            self%peak_time(self%sought) = time
+         else if (self%sought < 4 .and. value < self%peak - clear_fall*self%normaliser) then
+            self%sought = self%sought + 1
+            self%peak = values(self%sought)
+            self%peak_time(self%sought) = time
+         end if
+      end associate
+   end subroutine seek_peak
 
 end module budget

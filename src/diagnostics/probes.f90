@@ -72,15 +72,17 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), parameter :: dry = 1.0e-6_dp   ! sum_j W V_j is 1 inside the fluid
       type(ranges_t) :: ranges
-      real(dp) :: weight, total, share
+      real(dp) :: weight, total, squared, share
       integer :: k, j
 
-      call ranges_around(near, [x, y], [x, y], model%kernel%support, ranges)
+      call ranges_around(near, x, y, model%kernel%support, ranges)
       weight = 0
       total = 0
       do k = 1, ranges%n
          do j = ranges%first(k), ranges%last(k)
-            share = kernel_value(model%kernel, hypot(p%base%x(j) - x, p%base%y(j) - y))*p%base%w(j)
+            squared = (p%base%x(j) - x)**2 + (p%base%y(j) - y)**2
+            if (squared >= model%kernel%support**2) cycle
+            share = kernel_value(model%kernel, sqrt(squared))*p%base%w(j)
             weight = weight + share
             total = total + share*p%base%s(j)
          end do

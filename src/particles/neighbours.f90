@@ -5,12 +5,12 @@
 !! `list_ranges` is told how long before or after that time its ranges are to hold, and allows for
 !! accelerations by `slack`; the time step verifies both.
 module neighbours
-   use images, only: bottom_wall, images_t, list_images, walls_t
+   use images, only: bottom_wall, fill_images, images_t, list_images, walls_t
    use kernel, only: kernel_t
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots
-   use strips, only: add_ranges, ranges_t, sort_into_strips, strips_t
+   use strips, only: add_ranges, extent_t, ranges_t, sort_into_strips, strips_t
    implicit none
    private
 
@@ -20,26 +20,20 @@ module neighbours
    type :: neighbours_t
       real(dp) :: tau = 0       !! time that sorting looks ahead
       real(dp) :: travel = 0    !! time that the ranges allow for
-      real(dp) :: slack = 0     !! length that the ranges allow for besides
+      real(dp) :: slack = 0     !! length that the ranges allow accelerations to lead a particle
+      real(dp) :: stray = 0     !! length that they did, in the last step
       integer :: n_clusters = 0
       type(strips_t) :: strips               !! of the own slots
       type(images_t) :: images               !! behind the own slots
       type(ranges_t), allocatable :: ranges(:)   !! (n_clusters) slots that a cluster can reach
-      real(dp), allocatable :: speed(:)      !! (n_clusters) largest speed in a cluster
+      type(extent_t), allocatable, private :: clusters(:)   !! (n_clusters) predicted positions, velocities
    end type neighbours_t
-
-   !> Box of a cluster's predicted positions and box of its velocities.
-   type :: extent_t
-      real(dp) :: lower(2) = huge(1.0_dp), upper(2) = -huge(1.0_dp)
-      real(dp) :: slowest(2) = huge(1.0_dp), fastest(2) = -huge(1.0_dp)
-   end type extent_t
 
 contains
 
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
-   !! The state of `next` is not changed, so that a step can be repeated. `problem` is set if
-   !! some particle is too far from all others for a grid of strips.
+   !! The images are filled. The state of `next` is not changed.
    subroutine sort_particles(self, p, kernel, walls, dx, step_ahead, scattered)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
@@ -66,14 +60,15 @@ contains
       scattered = self%strips%n < 0
       if (scattered) return
       call permute(self, p)
-      call measure_speeds(self, p)
+      call measure_clusters(self, p)
       self%images%strips%height = self%strips%height
       self%images%strips%bin_width = self%strips%bin_width
       self%images%strips%origin = self%strips%origin
-      ! Room for a step up to twice as long as expected, should dt turn out larger.
-      reach = kernel%support + 2*(self%slack + 4*self%tau*self%strips%fastest_of_all)
+      ! Room for a step up to three times as long as expected, should dt turn out larger.
+      reach = kernel%support + 2*self%slack + 6*self%tau*maxval(abs([self%strips%overall%slowest, self%strips%overall%fastest]))
       call list_images(self%images, walls, p, self%tau, reach)
-      call measure_image_speeds(self, p)
+      call fill_images(self%images, walls, p%n_own, p%base)
+      call measure_images(self, p)
    end subroutine sort_particles
 
    ! Gathers state, mass and number of each slot from where its particle was.
@@ -120,51 +115,64 @@ contains
       call move_alloc(spare_id, p%sorted_id)
    end subroutine permute
 
-   ! Largest speed of each cluster, each strip and of all.
-   subroutine measure_speeds(self, p)
+   ! Positions and velocities of each cluster, velocities of each strip and of all.
+   subroutine measure_clusters(self, p)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(in) :: p
       integer :: c, k
 
       self%n_clusters = p%n_own/nl
       if (allocated(self%ranges)) then
-         if (size(self%ranges) < self%n_clusters) deallocate (self%ranges, self%speed)
+         if (size(self%ranges) < self%n_clusters) deallocate (self%ranges, self%clusters)
       end if
       if (.not. allocated(self%ranges)) &
-         allocate (self%ranges(self%n_clusters + self%n_clusters/8), self%speed(self%n_clusters + self%n_clusters/8))
-      !$omp parallel do default(none) shared(self, p)
-      do c = 1, self%n_clusters
-         associate (u => p%base%u((c - 1)*nl + 1:c*nl), v => p%base%v((c - 1)*nl + 1:c*nl))
-            self%speed(c) = sqrt(maxval(u**2 + v**2))
-         end associate
-      end do
-      !$omp end parallel do
-      !$omp parallel do default(none) shared(self)
+         allocate (self%ranges(self%n_clusters + self%n_clusters/8), self%clusters(self%n_clusters + self%n_clusters/8))
+      !$omp parallel do default(none) shared(self, p) private(c)
       do k = 1, self%strips%n
-         self%strips%fastest(k) = max(0.0_dp, &
-            maxval(self%speed((self%strips%slot_start(k) - 1)/nl + 1:(self%strips%slot_start(k + 1) - 1)/nl)))
+         self%strips%extent(k) = extent_t()
+         do c = (self%strips%slot_start(k) - 1)/nl + 1, (self%strips%slot_start(k + 1) - 1)/nl
+            self%clusters(c) = cluster_extent(p, c, self%tau)
+            call widen(self%strips%extent(k), self%clusters(c)%slowest, self%clusters(c)%fastest)
+         end do
       end do
       !$omp end parallel do
-      self%strips%fastest_of_all = max(0.0_dp, maxval(self%strips%fastest(1:self%strips%n)))
-   end subroutine measure_speeds
+      call measure_all(self%strips)
+   end subroutine measure_clusters
 
-   ! An image is as fast as its source.
-   subroutine measure_image_speeds(self, p)
+   ! Velocities of each strip of images and of all images.
+   subroutine measure_images(self, p)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(in) :: p
-      integer :: k, j, source
+      integer :: k, j
 
       associate (strips => self%images%strips)
-         strips%fastest_of_all = self%strips%fastest_of_all
          do k = 1, strips%n
-            strips%fastest(k) = 0
+            strips%extent(k) = extent_t()
             do j = strips%slot_start(k), strips%slot_start(k + 1) - 1
-               source = self%images%source(j - p%n_own)
-               strips%fastest(k) = max(strips%fastest(k), self%speed((source - 1)/nl + 1))
+               call widen(strips%extent(k), [p%base%u(j), p%base%v(j)], [p%base%u(j), p%base%v(j)])
             end do
          end do
       end associate
-   end subroutine measure_image_speeds
+      call measure_all(self%images%strips)
+   end subroutine measure_images
+
+   subroutine measure_all(strips)
+      type(strips_t), intent(inout) :: strips
+      integer :: k
+
+      strips%overall = extent_t()
+      do k = 1, strips%n
+         call widen(strips%overall, strips%extent(k)%slowest, strips%extent(k)%fastest)
+      end do
+   end subroutine measure_all
+
+   pure subroutine widen(extent, slowest, fastest)
+      type(extent_t), intent(inout) :: extent
+      real(dp), intent(in) :: slowest(2), fastest(2)
+
+      extent%slowest = min(extent%slowest, slowest)
+      extent%fastest = max(extent%fastest, fastest)
+   end subroutine widen
 
    !> Lists the slots that each cluster can reach until `travel` before or after the time that the
    !! particles were sorted for.
@@ -176,19 +184,17 @@ contains
       type(particles_t), intent(in) :: p
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: travel
-      type(extent_t) :: cluster
       real(dp) :: reach
       integer :: c
 
       self%travel = travel
       reach = kernel%support + 2*self%slack
-      !$omp parallel do default(none) shared(self, p, travel, reach) private(cluster) schedule(dynamic, 64)
+      !$omp parallel do default(none) shared(self, p, travel, reach) schedule(dynamic, 64)
       do c = 1, self%n_clusters
-         cluster = extent(p, c, self%tau)
-         associate (ranges => self%ranges(c))
+         associate (ranges => self%ranges(c), cluster => self%clusters(c))
             ranges%n = 0
-            call add_ranges(self%strips, cluster%lower, cluster%upper, reach + travel*self%speed(c), travel, ranges)
-            call add_ranges(self%images%strips, cluster%lower, cluster%upper, reach + travel*self%speed(c), travel, ranges)
+            call add_ranges(self%strips, cluster, reach, travel, ranges)
+            call add_ranges(self%images%strips, cluster, reach, travel, ranges)
             call trim_ranges(p, self%tau, travel, reach, cluster, ranges)
          end associate
       end do
@@ -196,7 +202,7 @@ contains
    end subroutine list_ranges
 
    ! Where a cluster's particles are predicted and how fast they are.
-   pure type(extent_t) function extent(p, c, tau) result(cluster)
+   pure type(extent_t) function cluster_extent(p, c, tau) result(cluster)
       type(particles_t), intent(in) :: p
       integer, intent(in) :: c
       real(dp), intent(in) :: tau
@@ -212,7 +218,7 @@ contains
          cluster%slowest = [min(cluster%slowest(1), p%base%u(i)), min(cluster%slowest(2), p%base%v(i))]
          cluster%fastest = [max(cluster%fastest(1), p%base%u(i)), max(cluster%fastest(2), p%base%v(i))]
       end do
-   end function extent
+   end function cluster_extent
 
    ! Takes from both ends of each range what stays out of reach, and ranges that are empty then.
    pure subroutine trim_ranges(p, tau, travel, reach, cluster, ranges)
@@ -258,15 +264,17 @@ contains
 
    end subroutine trim_ranges
 
-   !> Slots, own and images, that may be closer than `reach` to a box in the base state.
-   pure subroutine ranges_around(self, lower, upper, reach, ranges)
+   !> Slots, own and images, that may be closer than `reach` to a point in the base state.
+   pure subroutine ranges_around(self, x, y, reach, ranges)
       type(neighbours_t), intent(in) :: self
-      real(dp), intent(in) :: lower(2), upper(2)
+      real(dp), intent(in) :: x, y
       real(dp), intent(in) :: reach
       type(ranges_t), intent(out) :: ranges
+      type(extent_t) :: point
 
-      call add_ranges(self%strips, lower, upper, reach + self%slack, self%travel, ranges)
-      call add_ranges(self%images%strips, lower, upper, reach + self%slack, self%travel, ranges)
+      point = extent_t(lower=[x, y], upper=[x, y], slowest=0.0_dp, fastest=0.0_dp)
+      call add_ranges(self%strips, point, reach, self%tau, ranges)
+      call add_ranges(self%images%strips, point, reach, self%tau, ranges)
    end subroutine ranges_around
 
 end module neighbours

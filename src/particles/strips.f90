@@ -12,7 +12,7 @@ module strips
    implicit none
    private
 
-   public :: strips_t, ranges_t, sort_into_strips, add_ranges
+   public :: strips_t, ranges_t, extent_t, sort_into_strips, add_ranges, relative_speed
 
    integer, parameter, public :: max_ranges = 24   !! a cluster's ranges: strips it reaches, own and images
 
@@ -21,6 +21,12 @@ module strips
       integer :: n = 0
       integer :: first(max_ranges), last(max_ranges)
    end type ranges_t
+
+   !> Box of positions and box of velocities of some particles; empty at first.
+   type :: extent_t
+      real(dp) :: lower(2) = huge(1.0_dp), upper(2) = -huge(1.0_dp)
+      real(dp) :: slowest(2) = huge(1.0_dp), fastest(2) = -huge(1.0_dp)
+   end type extent_t
 
    !> The strips of a set of points and where their slots begin.
    type :: strips_t
@@ -35,8 +41,8 @@ module strips
       integer, allocatable :: bins(:)               !! (n) bins of a strip
       integer, allocatable :: bin_offset(:)         !! (n) where a strip's bins are in bin_start
       integer, allocatable :: bin_start(:)          !! first slot of each bin, and one past the strip's last
-      real(dp), allocatable :: fastest(:)           !! (n) largest speed in a strip, set by the caller
-      real(dp) :: fastest_of_all = 0                !! largest of these
+      type(extent_t), allocatable :: extent(:)      !! (n) velocities in a strip, set by the caller
+      type(extent_t) :: overall                     !! of all strips
       integer, allocatable, private :: strip_of(:)  !! (points) scratch
       integer, allocatable, private :: by_strip(:)  !! (points) scratch
       integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from slot_start(1)
@@ -163,7 +169,10 @@ contains
       call resize(self%bins, self%n)
       call resize(self%bin_offset, self%n)
       call resize_real(self%left, self%n)
-      call resize_real(self%fastest, self%n)
+      if (allocated(self%extent)) then
+         if (size(self%extent) < self%n) deallocate (self%extent)
+      end if
+      if (.not. allocated(self%extent)) allocate (self%extent(self%n + self%n/8))
       !$omp parallel do default(none) shared(self, strip_start, x) &
       !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic, 8)
       do k = 1, self%n
@@ -244,32 +253,33 @@ contains
       bin = int(max(0.0_dp, min(real(self%bins(k) - 1, dp), (x - self%left(k))/self%bin_width))) + 1
    end function bin
 
-   !> Adds the slot ranges that hold every point closer than `reach + travel*fastest` to the
-   !! box lower..upper, `fastest` being the strip's largest speed.
-   pure subroutine add_ranges(self, lower, upper, reach, travel, ranges)
+   !> Adds the slot ranges that hold every point that may come closer than `reach` to a box of particles while
+   !! all move on for up to `travel`, forwards or backwards.
+   pure subroutine add_ranges(self, box, reach, travel, ranges)
       type(strips_t), intent(in) :: self
-      real(dp), intent(in) :: lower(2), upper(2)   !! corners of the box
-      real(dp), intent(in) :: reach    !! support radius and what the box itself may move
-      real(dp), intent(in) :: travel   !! time that the points may move on for
+      type(extent_t), intent(in) :: box
+      real(dp), intent(in) :: reach
+      real(dp), intent(in) :: travel   !! time
       type(ranges_t), intent(inout) :: ranges
-      real(dp) :: gap, half_width, strip_bottom, widest, strip_reach
+      real(dp) :: gap, half_width, strip_bottom, widest, closing(2)
       integer :: k, k1, k2, first, last
 
       if (self%n == 0) return
-      widest = reach + travel*self%fastest_of_all
-      k1 = int(max(0.0_dp, min(real(self%n, dp), (lower(2) - widest - self%bottom)/self%height))) + 1
-      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (upper(2) + widest - self%bottom)/self%height))) + 1
+      closing = travel*relative_speed(box, self%overall)
+      widest = reach + closing(2)
+      k1 = int(max(0.0_dp, min(real(self%n, dp), (box%lower(2) - widest - self%bottom)/self%height))) + 1
+      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (box%upper(2) + widest - self%bottom)/self%height))) + 1
       do k = k1, k2
          if (self%bins(k) == 0) cycle
+         closing = travel*relative_speed(box, self%extent(k))
          strip_bottom = self%bottom + (k - 1)*self%height
-         gap = max(0.0_dp, strip_bottom - upper(2), lower(2) - (strip_bottom + self%height))
-         strip_reach = reach + travel*self%fastest(k)
-         if (gap >= strip_reach) cycle
-         half_width = sqrt(strip_reach**2 - gap**2)
-         if (upper(1) + half_width < self%left(k)) cycle
+         gap = max(strip_bottom - box%upper(2), box%lower(2) - (strip_bottom + self%height)) - closing(2)
+         if (gap >= reach) cycle
+         half_width = sqrt(reach**2 - max(0.0_dp, gap)**2) + closing(1)
+         if (box%upper(1) + half_width < self%left(k)) cycle
          associate (start => self%bin_offset(k))
-            first = self%bin_start(start + bin(self, k, lower(1) - half_width))
-            last = self%bin_start(start + bin(self, k, upper(1) + half_width) + 1) - 1
+            first = self%bin_start(start + bin(self, k, box%lower(1) - half_width))
+            last = self%bin_start(start + bin(self, k, box%upper(1) + half_width) + 1) - 1
          end associate
          if (last < first) cycle
          ranges%n = ranges%n + 1
@@ -277,6 +287,14 @@ contains
          ranges%last(ranges%n) = last
       end do
    end subroutine add_ranges
+
+   !> Largest difference of velocity components between any particle of one box and any of the other.
+   pure function relative_speed(a, b) result(speed)
+      type(extent_t), intent(in) :: a, b
+      real(dp) :: speed(2)
+
+      speed = max(0.0_dp, a%fastest - b%slowest, b%fastest - a%slowest)
+   end function relative_speed
 
    subroutine resize(array, n)
       integer, allocatable, intent(inout) :: array(:)

@@ -158,7 +158,7 @@ contains
                 now%kinetic, now%potential, now%elastic, now%total(), b%q_alpha, b%q_delta, b%w_s, &
                 now%kinetic/de, (now%potential - rest%potential)/de, (now%elastic - rest%elastic)/de, &
                 (now%total() - rest%total())/de, b%q_alpha/de, b%q_delta/de, b%w_s/de, b%balance_error, &
-                run%mach, run%variation]
+                run%mach, run%variation, run%speed]
       end associate
    end function energy_row
 

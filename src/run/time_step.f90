@@ -40,6 +40,7 @@ module time_step
       real(dp) :: work_delta = 0            !! energy given by density diffusion
       real(dp) :: work_walls = 0            !! energy given by the walls' images
       real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, at the end of the last step
+      real(dp) :: speed = 0                 !! max |u| at the end of the last step
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 at the end of the last step
       real(dp) :: largest_mach = 0          !! over all steps
       real(dp) :: largest_variation = 0     !! over all steps
@@ -62,7 +63,7 @@ module time_step
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0
-      logical :: strayed = .false.   !! some particle left the margin that its ranges allow for
+      real(dp) :: stray = 0          !! largest way that accelerations led a particle
    end type block_t
 
 contains
@@ -77,7 +78,7 @@ contains
       real(dp) :: expected
 
       call timers%start(phase_sort)
-      near%slack = 0.02_dp*model%dx
+      near%slack = max(0.02_dp*model%dx, 2*near%stray)
       expected = run%dt
       if (run%step == 0) expected = model%step_limit(0.0_dp)
       call find_neighbours(model, p, near, run, expected)
@@ -93,7 +94,6 @@ contains
 
       call sort_particles(near, p, model%kernel, model%walls, model%dx, expected, run%scattered)
       if (run%scattered) return
-      call fill_images(near%images, model%walls, p%n_own, p%base)
       call list_ranges(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
 
@@ -125,7 +125,7 @@ contains
       run%time = run%time + run%dt
    end subroutine advance
 
-   ! Some particle moved further than expected: sort the unchanged base state again with four times the slack.
+   ! Some particle was led further than expected: sort the unchanged base state again with enough slack.
    subroutine widen_and_restart(model, p, near, run, timers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -135,7 +135,7 @@ contains
 
       call timers%start(phase_sort)
       run%repeated = run%repeated + 1
-      near%slack = 4*near%slack
+      near%slack = 2*near%stray
       p%next = p%base
       call find_neighbours(model, p, near, run, run%dt)
       call timers%stop(phase_sort)
@@ -203,7 +203,8 @@ contains
          call later_stage(model, p, near, stage, dt, blocks)
       end do
       call timers%stop(phase_stages)
-      strayed = any(blocks%strayed)
+      near%stray = maxval(blocks%stray)
+      strayed = near%stray > near%slack .and. near%slack < model%kernel%support
    end subroutine stages
 
    ! Completes the frozen density diffusion and goes from `base` to the second stage's state.
@@ -229,7 +230,7 @@ contains
                call freeze_density_diffusion(model, neighbour_gradient, p, i0)
             end if
             rates = rates_t(p%next%u(i0 + 1:i0 + nl), p%next%v(i0 + 1:i0 + nl), p%next%s(i0 + 1:i0 + nl))
-            call update_cluster(model, p, i0, 1, dt, rates, near%slack, blocks(b))
+            call update_cluster(model, p, i0, 1, dt, rates, blocks(b))
          end do
       end do
       !$omp end parallel do
@@ -256,21 +257,20 @@ contains
             i0 = (c - 1)*nl
             call sum_flow(model%kernel, near%ranges(c), p%stage(now), i0, sums)
             call flow_rates(model, p%stage(now), i0, sums, rates)
-            call update_cluster(model, p, i0, stage, dt, rates, near%slack, blocks(b))
+            call update_cluster(model, p, i0, stage, dt, rates, blocks(b))
          end do
       end do
       !$omp end parallel do
    end subroutine later_stage
 
    ! Adds the frozen terms and gravity, takes the works, and moves the cluster on.
-   subroutine update_cluster(model, p, i0, stage, dt, rates, slack, sums)
+   subroutine update_cluster(model, p, i0, stage, dt, rates, sums)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0             !! slot before the cluster's first
       integer, intent(in) :: stage          !! 1 to 4
       real(dp), intent(in) :: dt
       type(rates_t), intent(in) :: rates    !! inviscid, at the stage's state
-      real(dp), intent(in) :: slack         !! way that accelerations may lead particles in a step
       type(block_t), intent(inout) :: sums
       type(rates_t) :: full
       type(lanes_t) :: now
@@ -299,9 +299,8 @@ contains
          call finish_cluster(model, p, i0, sums)
       else
          call form_stage(model, p, i0, stage + 1, stage_ahead(stage)*dt, now, full)
-         ! Written so that NaN strays too.
          associate (u => p%base%u(i0 + 1:i0 + nl), v => p%base%v(i0 + 1:i0 + nl))
-            if (.not. all((now%u - u)**2 + (now%v - v)**2 <= (slack/(stage_ahead(stage)*dt))**2)) sums%strayed = .true.
+            sums%stray = max(sums%stray, stage_ahead(stage)*dt*sqrt(maxval((now%u - u)**2 + (now%v - v)**2)))
          end associate
       end if
    end subroutine update_cluster
@@ -379,8 +378,9 @@ contains
          sums%speed_2 = max(sums%speed_2, speed_2)
          sums%pressure = max(sums%pressure, pressure)
          sums%largest_s = max(sums%largest_s, abs(p%next%s(i)))
-         ! Written so that NaN fails too: speeds of ten times sound and half the density are out of range.
-         if (.not. (speed_2 < 100*model%c0**2 .and. abs(p%next%s(i)) < 0.5_dp*model%rho0)) sums%lost_slot = i
+         ! Written so that NaN fails too. Collapsing cavities reach half the sound speed and density for a moment.
+         if (.not. (speed_2 < 100*model%c0**2 .and. p%next%s(i) > -0.9_dp*model%rho0 &
+                    .and. p%next%s(i) < 4*model%rho0)) sums%lost_slot = i
       end do
    end subroutine finish_cluster
 
@@ -395,6 +395,7 @@ contains
       run%work_walls = run%work_walls + sum(blocks%work(3))
       run%crossings = run%crossings + sum(blocks%crossings)
       run%singular = run%singular + sum(blocks%singular)
+      run%speed = sqrt(maxval(blocks%speed_2))
       run%mach = sqrt(max(maxval(blocks%speed_2), maxval(blocks%pressure)))/model%c0
       run%variation = maxval(blocks%largest_s)/model%rho0
       run%largest_mach = max(run%largest_mach, run%mach)

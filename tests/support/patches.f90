@@ -1,6 +1,6 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
-   use images, only: bottom_wall, fill_images, left_wall, right_wall, walls_t
+   use images, only: bottom_wall, fill_images, left_wall, right_wall, top_wall, walls_t
    use kernel, only: new_kernel
    use kinds, only: dp, i8
    use model, only: model_t
@@ -9,7 +9,7 @@ module patches
    implicit none
    private
 
-   public :: random_t, points_t, open_model, tank_model, fill_patch, put_particles, set_linear_density
+   public :: random_t, points_t, empty_points, open_model, tank_model, fill_patch, put_particles, set_linear_density
    public :: find_neighbours, points_of, with_images, scatter
 
    real(dp), parameter, public :: spacing = 0.05_dp                    !! dx of the models below
@@ -166,32 +166,21 @@ contains
    end subroutine scatter
 
    !> The particles and all images that they could have, however far away: written from the definition.
-   type(points_t) function with_images(points, walls) result(all)
+   type(points_t) function with_images(points, walls) result(both)
       type(points_t), intent(in) :: points
       type(walls_t), intent(in) :: walls
-      type(points_t) :: image
-      integer :: side(2), pair(2), k
+      integer :: wall, side
 
-      all = points
-      do k = 1, 4
-         if (walls%present(k)) call append(all, mirrored(points, walls, k))
+      both = points
+      do wall = 1, 4
+         if (walls%present(wall)) call append(both, mirrored(points, walls, wall))
       end do
-      do k = 1, 4
-         side = [merge(1, 2, k <= 2), merge(3, 4, mod(k, 2) == 1)]
-         pair = side
-         if (.not. all_of(walls%present(pair))) cycle
-         image = mirrored(points, walls, pair(1))
-         call append(all, mirrored(image, walls, pair(2)))
+      do side = left_wall, right_wall
+         do wall = bottom_wall, top_wall
+            if (walls%present(side) .and. walls%present(wall)) &
+               call append(both, mirrored(mirrored(points, walls, side), walls, wall))
+         end do
       end do
-
-   contains
-
-      pure logical function all_of(flags)
-         logical, intent(in) :: flags(:)
-
-         all_of = count(flags) == size(flags)
-      end function all_of
-
    end function with_images
 
    ! The points mirrored at one wall.
@@ -213,22 +202,23 @@ contains
       image%s = points%s + walls%density_slope(1)*(image%x - points%x) + walls%density_slope(2)*(image%y - points%y)
    end function mirrored
 
-   subroutine append(all, more)
-      type(points_t), intent(inout) :: all
+   subroutine append(points, more)
+      type(points_t), intent(inout) :: points
       type(points_t), intent(in) :: more
 
-      all%x = [all%x, more%x]
-      all%y = [all%y, more%y]
-      all%u = [all%u, more%u]
-      all%v = [all%v, more%v]
-      all%s = [all%s, more%s]
-      all%w = [all%w, more%w]
-      all%m = [all%m, more%m]
-      all%owner = [all%owner, more%owner]
-      all%sign_x = [all%sign_x, more%sign_x]
-      all%sign_y = [all%sign_y, more%sign_y]
+      points%x = [points%x, more%x]
+      points%y = [points%y, more%y]
+      points%u = [points%u, more%u]
+      points%v = [points%v, more%v]
+      points%s = [points%s, more%s]
+      points%w = [points%w, more%w]
+      points%m = [points%m, more%m]
+      points%owner = [points%owner, more%owner]
+      points%sign_x = [points%sign_x, more%sign_x]
+      points%sign_y = [points%sign_y, more%sign_y]
    end subroutine append
 
+   !> n particles that are still to be filled in; masses too.
    type(points_t) function empty_points(n) result(points)
       integer, intent(in) :: n
       integer :: i

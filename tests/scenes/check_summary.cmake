@@ -1,0 +1,37 @@
+# Checks numbers in the summary.txt of a run.
+#
+#    cmake -DFILE=result/summary.txt "-DRULES=key|least|most;..." -P check_summary.cmake
+#
+# Every key must be there, with a number from least to most; an empty bound is none. NaN never passes.
+cmake_minimum_required(VERSION 3.18)
+
+if("${FILE}" STREQUAL "" OR "${RULES}" STREQUAL "")
+   message(FATAL_ERROR "check_summary.cmake needs -DFILE=... and -DRULES=...")
+endif()
+file(STRINGS "${FILE}" lines)
+set(failed "")
+foreach(rule IN LISTS RULES)
+   if(NOT rule MATCHES "^([A-Za-z_0-9]+)\\|([^|]*)\\|([^|]*)$")
+      message(FATAL_ERROR "'${rule}' is no rule key|least|most")
+   endif()
+   set(key "${CMAKE_MATCH_1}")
+   set(least "${CMAKE_MATCH_2}")
+   set(most "${CMAKE_MATCH_3}")
+   set(value "")
+   foreach(line IN LISTS lines)
+      if(line MATCHES "^${key} = (.*)$")
+         set(value "${CMAKE_MATCH_1}")
+      endif()
+   endforeach()
+   message("${key} = ${value}, wanted: ${least} to ${most}")
+   if(NOT value MATCHES "^[-+]?[0-9.]+([Ee][-+]?[0-9]+)?$")
+      string(APPEND failed "\n  ${key} is no number: '${value}'")
+   elseif(NOT least STREQUAL "" AND NOT value GREATER_EQUAL least)
+      string(APPEND failed "\n  ${key} = ${value} is less than ${least}")
+   elseif(NOT most STREQUAL "" AND NOT value LESS_EQUAL most)
+      string(APPEND failed "\n  ${key} = ${value} is more than ${most}")
+   endif()
+endforeach()
+if(failed)
+   message(FATAL_ERROR "${FILE}:${failed}")
+endif()
