@@ -11,7 +11,7 @@ module images
    implicit none
    private
 
-   public :: walls_t, images_t, list_images, fill_images, fill_image_gradients, reflect
+   public :: walls_t, images_t, list_images, fill_images, fill_image_gradients, outside, reflect
 
    integer, parameter, public :: left_wall = 1, right_wall = 2, bottom_wall = 3, top_wall = 4
 
@@ -207,6 +207,17 @@ contains
          end if
       end do
    end subroutine mirror_tables
+
+   !> Whether a position is behind a wall.
+   elemental logical function outside(walls, x, y)
+      type(walls_t), intent(in) :: walls
+      real(dp), intent(in) :: x, y
+
+      outside = (walls%present(left_wall) .and. x < walls%at(left_wall)) &
+                .or. (walls%present(right_wall) .and. x > walls%at(right_wall)) &
+                .or. (walls%present(bottom_wall) .and. y < walls%at(bottom_wall)) &
+                .or. (walls%present(top_wall) .and. y > walls%at(top_wall))
+   end function outside
 
    !> Puts a particle that crossed a wall back inside, its normal velocity pointing inwards.
    !!

@@ -9,7 +9,7 @@ module time_step
    use flow, only: as_flow_sums, flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use gradient_sums, only: gradient_sums_t, sum_gradients
-   use images, only: fill_image_gradients, fill_images, reflect
+   use images, only: fill_image_gradients, fill_images, outside, reflect
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
@@ -364,24 +364,29 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0
       type(block_t), intent(inout) :: sums
-      real(dp) :: speed_2, pressure
-      logical :: crossed
+      real(dp) :: speed_2(nl), pressure(nl)
+      logical :: crossed, out_of_range(nl)
       integer :: i
 
-      do i = i0 + 1, i0 + nl
-         if (p%id(i) == 0) cycle
-         call reflect(model%walls, model%gravity, p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
-         if (crossed) sums%crossings = sums%crossings + 1
-         p%next%w(i) = p%m(i)/(model%rho0 + p%next%s(i))
-         speed_2 = p%next%u(i)**2 + p%next%v(i)**2
-         pressure = model%c0**2*p%next%s(i)/(model%rho0 + p%next%s(i))
-         sums%speed_2 = max(sums%speed_2, speed_2)
-         sums%pressure = max(sums%pressure, pressure)
-         sums%largest_s = max(sums%largest_s, abs(p%next%s(i)))
+      associate (x => p%next%x(i0 + 1:i0 + nl), y => p%next%y(i0 + 1:i0 + nl), u => p%next%u(i0 + 1:i0 + nl), &
+                 v => p%next%v(i0 + 1:i0 + nl), s => p%next%s(i0 + 1:i0 + nl), m => p%m(i0 + 1:i0 + nl))
+         if (any(outside(model%walls, x, y) .and. m > 0)) then
+            do i = i0 + 1, i0 + nl
+               if (p%id(i) == 0) cycle
+               call reflect(model%walls, model%gravity, p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
+               if (crossed) sums%crossings = sums%crossings + 1
+            end do
+         end if
+         p%next%w(i0 + 1:i0 + nl) = m/(model%rho0 + s)
+         speed_2 = merge(u**2 + v**2, 0.0_dp, m > 0)
+         pressure = model%c0**2*s/(model%rho0 + s)
+         sums%speed_2 = max(sums%speed_2, maxval(speed_2))
+         sums%pressure = max(sums%pressure, maxval(pressure))
+         sums%largest_s = max(sums%largest_s, maxval(abs(s)))
          ! Written so that NaN fails too. Collapsing cavities reach half the sound speed and density for a moment.
-         if (.not. (speed_2 < 100*model%c0**2 .and. p%next%s(i) > -0.9_dp*model%rho0 &
-                    .and. p%next%s(i) < 4*model%rho0)) sums%lost_slot = i
-      end do
+         out_of_range = .not. (speed_2 < 100*model%c0**2 .and. s > -0.9_dp*model%rho0 .and. s < 4*model%rho0)
+         if (any(out_of_range)) sums%lost_slot = i0 + findloc(out_of_range, .true., dim=1)
+      end associate
    end subroutine finish_cluster
 
    ! Sums over the blocks in their order, so that the result does not depend on the number of threads.

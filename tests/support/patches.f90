@@ -1,6 +1,6 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
-   use images, only: bottom_wall, fill_images, left_wall, right_wall, top_wall, walls_t
+   use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use kernel, only: new_kernel
    use kinds, only: dp, i8
    use model, only: model_t
@@ -135,7 +135,6 @@ contains
       if (present(slack)) near%slack = slack
       call sort_particles(near, p, model%kernel, model%walls, model%dx, step_ahead, scattered)
       if (scattered) error stop 'the test''s particles are too far from each other'
-      call fill_images(near%images, model%walls, p%n_own, p%base)
       call list_ranges(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
 
