@@ -57,6 +57,7 @@ contains
       end if
       call parse_command_line([words(1), words(4:)], options, problem)
       if (problem%raised()) return
+      allocate (character(1) :: warnings(0))   ! else gfortran 12 takes it for uninitialised
       call read_settings(trim(options%scene), options%overrides, scene, warnings, problem)
    end subroutine read_arguments
 
@@ -68,6 +69,7 @@ contains
       type(step_t) :: run
       type(timers_t) :: timers
       real(dp) :: table(5, repeats, 2), ns(5, 2), started
+      real(dp), allocatable :: x(:), u(:)
       logical :: equal
       integer :: k, n_threads
 
@@ -89,8 +91,8 @@ contains
          ' particles, ', run%step, ' steps to t = ', run%time, ' on ', n_threads, ' threads in ', wall_seconds() - started, ' s'
       equal = .true.
       do k = 1, repeats
-         call time_steps(model, p, near, run, 1, table(:, k, 1), equal)
-         call time_steps(model, p, near, run, n_threads, table(:, k, 2), equal)
+         call time_steps(model, p, near, run, 1, table(:, k, 1), x, u, equal)
+         call time_steps(model, p, near, run, n_threads, table(:, k, 2), x, u, equal)
       end do
       do k = 1, 5
          ns(k, 1) = median(table(k, :, 1))
@@ -101,19 +103,19 @@ contains
    end subroutine measure
 
    ! ns per particle-step of wall time, by phase and in all, from copies of the state.
-   subroutine time_steps(model, p, near, run, n_threads, ns, equal)
+   subroutine time_steps(model, p, near, run, n_threads, ns, x, u, equal)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       integer, intent(in) :: n_threads
       real(dp), intent(out) :: ns(5)
+      real(dp), allocatable, intent(inout) :: x(:), u(:)   !! what the first timed steps gave
       logical, intent(inout) :: equal
       type(particles_t) :: p_copy
       type(neighbours_t) :: near_copy
       type(step_t) :: run_copy
       type(timers_t) :: timers
-      real(dp), allocatable, save :: x(:), u(:)
       real(dp) :: started
       integer :: k
 

@@ -11,7 +11,7 @@ module hdf5_writer
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
       h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
       h5t_std_u8le, h5t_str_nullpad_f, h5t_string, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f, &
-      h5t_fortran_s1, hid_t, hsize_t
+      h5p_dataset_create_f, h5pclose_f, h5pcreate_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
    implicit none
    private
@@ -234,13 +234,18 @@ contains
       integer(hid_t), intent(in) :: kind         !! type in memory and in the file
       integer(hsize_t), intent(in) :: extent(:)
       type(c_ptr), intent(in) :: address
-      integer(hid_t) :: space, dataset
+      integer(hid_t) :: space, dataset, properties
       integer :: ignored, status
 
       if (self%failed) return
       call h5screate_simple_f(size(extent), extent, space, status)
       call note(self, status, name)
-      call h5dcreate_f(self%file, name, kind, space, dataset, status)
+      call h5pcreate_f(h5p_dataset_create_f, properties, status)
+      call note(self, status, name)
+      ! Without the time of day, the same run gives the same file.
+      call h5pset_obj_track_times_f(properties, .false., status)
+      call note(self, status, name)
+      call h5dcreate_f(self%file, name, kind, space, dataset, status, properties)
       call note(self, status, name)
       if (status >= 0) then
          if (all(extent > 0)) call h5dwrite_f(dataset, kind, address, status)
@@ -248,6 +253,7 @@ contains
          call h5dclose_f(dataset, status)
          call note(self, status, name)
       end if
+      call h5pclose_f(properties, ignored)
       call h5sclose_f(space, ignored)
    end subroutine put
 

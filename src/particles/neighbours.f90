@@ -20,6 +20,7 @@ module neighbours
    type :: neighbours_t
       real(dp) :: tau = 0       !! time that sorting looks ahead
       real(dp) :: travel = 0    !! time that the ranges allow for
+      real(dp) :: image_travel = 0   !! time that images were made for
       real(dp) :: slack = 0     !! length that the ranges allow accelerations to lead a particle
       real(dp) :: stray = 0     !! length that they did, in the last step
       integer :: n_clusters = 0
@@ -64,8 +65,11 @@ contains
       self%images%strips%height = self%strips%height
       self%images%strips%bin_width = self%strips%bin_width
       self%images%strips%origin = self%strips%origin
-      ! Room for a step up to three times as long as expected, should dt turn out larger.
-      reach = kernel%support + 2*self%slack + 6*self%tau*maxval(abs([self%strips%overall%slowest, self%strips%overall%fastest]))
+      ! Room for a step up to twice as long as expected, should dt turn out larger.
+      self%image_travel = 3*self%tau
+      associate (overall => self%strips%overall)
+         reach = kernel%support + 2*(self%slack + self%image_travel*maxval(abs([overall%slowest, overall%fastest])))
+      end associate
       call list_images(self%images, walls, p, self%tau, reach)
       call fill_images(self%images, walls, p%n_own, p%base)
       call measure_images(self, p)

@@ -282,11 +282,21 @@ contains
             last = self%bin_start(start + bin(self, k, box%upper(1) + half_width) + 1) - 1
          end associate
          if (last < first) cycle
-         ranges%n = ranges%n + 1
-         ranges%first(ranges%n) = first
-         ranges%last(ranges%n) = last
+         call add_range(ranges, first, last)
       end do
    end subroutine add_ranges
+
+   ! Slots ascend from strip to strip, so where there is no place left the last range can take in all up to this one.
+   pure subroutine add_range(ranges, first, last)
+      type(ranges_t), intent(inout) :: ranges
+      integer, intent(in) :: first, last
+
+      if (ranges%n < max_ranges) then
+         ranges%n = ranges%n + 1
+         ranges%first(ranges%n) = first
+      end if
+      ranges%last(ranges%n) = last
+   end subroutine add_range
 
    !> Largest difference of velocity components between any particle of one box and any of the other.
    pure function relative_speed(a, b) result(speed)

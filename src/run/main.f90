@@ -68,6 +68,7 @@ contains
       character(:), allocatable :: warnings(:)
       integer :: k
 
+      allocate (character(1) :: warnings(0))   ! else gfortran 12 takes it for uninitialised
       call read_settings(options%scene, options%overrides, scene, warnings, problem)
       if (problem%raised()) return
       if (.not. options%check) then
@@ -89,7 +90,7 @@ contains
       type(failure), intent(inout) :: problem
       type(result_directory_t) :: directory
       type(log_t) :: log
-      character(:), allocatable :: input_text
+      character(:), allocatable :: input_text, reason
       integer :: k
 
       call directory%prepare(output_directory(options), options%overwrite, problem)
@@ -104,7 +105,13 @@ contains
       end do
       input_text = echo_text(scene)
       call write_whole_file(directory%file(input_name), input_text, problem)
-      if (.not. problem%raised()) call simulate(scene, input_text, directory, log, problem)
+      if (problem%raised()) then
+         call log%close()
+         call delete_file(directory%file(log_name), reason)
+         call directory%discard_if_empty()
+         return
+      end if
+      call simulate(scene, input_text, directory, log, problem)
       call log%close()
    end subroutine run_into_directory
 

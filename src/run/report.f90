@@ -170,9 +170,9 @@ contains
       type(budget_t), intent(in) :: budget
       type(step_t), intent(in) :: run
       character(*), intent(in) :: path      !! result directory
-      character(100), allocatable :: lines(:)
+      character(160) :: lines(4)
 
-      lines = [character(100) :: &
+      lines = [character(160) :: &
                'Q_alpha '//short(budget%q_alpha/budget%normaliser)//', Q_delta '//short(budget%q_delta/budget%normaliser) &
                //', Q_total '//short((budget%q_alpha + budget%q_delta)/budget%normaliser)//' of dE_Mtot', &
                'wall work '//short(budget%w_s/budget%normaliser)//', largest balance error '//short(budget%largest_error), &
@@ -180,8 +180,7 @@ contains
                to_text(run%crossings)//' wall crossings, '//to_text(run%singular)//' particle-steps without gradient, ' &
                //to_text(run%repeated)//' steps repeated']
       call log%box('Budget', lines)
-      lines = [character(100) :: timers%table(seconds)]
-      call log%box('Wall time', lines)
+      call log%box('Wall time', timers%table(seconds))
       call log%line('results in '//path//': energy.dat, probes.dat, snapshots.vtkhdf.series, summary.txt, run.log')
    end subroutine closing_table
 

@@ -114,10 +114,15 @@ contains
          call first_sums(model, p, near, blocks, timers)
          largest_pi = maxval(blocks%largest_pi)
          run%dt = min(model%step_limit(largest_pi), last_time - run%time)
-         call stages(model, p, near, run%dt, blocks, timers, strayed)
-         if (.not. strayed) exit
+         if (run%dt - near%tau <= near%image_travel) then
+            call stages(model, p, near, run%dt, blocks, timers, strayed)
+            if (.not. strayed) exit
+            run%repeated = run%repeated + 1
+            near%slack = 2*near%stray
+         end if
+         ! The step is much longer than expected, or accelerations led some particle too far: with better margins again.
          deallocate (blocks)
-         call widen_and_restart(model, p, near, run, timers)
+         call sort_again(model, p, near, run, timers)
          if (run%scattered) return
       end do
       call collect(model, run, blocks)
@@ -125,8 +130,8 @@ contains
       run%time = run%time + run%dt
    end subroutine advance
 
-   ! Some particle was led further than expected: sort the unchanged base state again with enough slack.
-   subroutine widen_and_restart(model, p, near, run, timers)
+   ! Sorts the unchanged base state again, for the step that is known now.
+   subroutine sort_again(model, p, near, run, timers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
@@ -134,12 +139,10 @@ contains
       type(timers_t), intent(inout) :: timers
 
       call timers%start(phase_sort)
-      run%repeated = run%repeated + 1
-      near%slack = 2*near%stray
       p%next = p%base
       call find_neighbours(model, p, near, run, run%dt)
       call timers%stop(phase_sort)
-   end subroutine widen_and_restart
+   end subroutine sort_again
 
    ! L, grad rho, the frozen terms and the first stage's rates, which `next` keeps until they are used.
    subroutine first_sums(model, p, near, blocks, timers)
