@@ -57,7 +57,6 @@ contains
       end if
       call parse_command_line([words(1), words(4:)], options, problem)
       if (problem%raised()) return
-      allocate (character(1) :: warnings(0))   ! else gfortran 12 takes it for uninitialised
       call read_settings(trim(options%scene), options%overrides, scene, warnings, problem)
    end subroutine read_arguments
 

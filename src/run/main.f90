@@ -68,7 +68,6 @@ contains
       character(:), allocatable :: warnings(:)
       integer :: k
 
-      allocate (character(1) :: warnings(0))   ! else gfortran 12 takes it for uninitialised
       call read_settings(options%scene, options%overrides, scene, warnings, problem)
       if (problem%raised()) return
       if (.not. options%check) then
