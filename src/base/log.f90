@@ -160,7 +160,7 @@ contains
       end do
    end function warning_count
 
-   !> Writes how often each kind of warning came, with the latest of those not shown.
+   !> Writes how often each kind of warning came that was not always shown, with the latest.
    subroutine report_warnings(self)
       class(log_t), intent(inout) :: self
       character(widest_text) :: text
@@ -169,9 +169,8 @@ contains
       if (.not. allocated(self%tallies)) return
       do i = 1, size(self%tallies)
          associate (tally => self%tallies(i))
-            write (text, '(3a, i0, a)') "warning '", tally%key, "' came ", tally%number, ' times'
-            if (tally%number == 1) text = "warning '"//tally%key//"' came once"
-            if (tally%number > warnings_shown) text = trim(text)//'; the latest: '//tally%latest
+            if (tally%number <= warnings_shown) cycle   ! all of them were shown
+            write (text, '(3a, i0, 2a)') "warning '", tally%key, "' came ", tally%number, ' times; the latest: ', tally%latest
             call write_warning(self, trim(text))
          end associate
       end do

@@ -4,7 +4,7 @@ module text
    implicit none
    private
 
-   public :: to_text, parse_real, parse_integer, lower_case, quoted, nearest_word, edit_distance
+   public :: to_text, short, parse_real, parse_integer, lower_case, quoted, nearest_word, edit_distance
 
    integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
@@ -292,5 +292,37 @@ contains
       end do
       edit_distance = row(len(word), len(other))
    end function edit_distance
+
+   !> A number in four significant digits, without trailing zeros.
+   pure function short(value) result(words)
+      real(dp), intent(in) :: value
+      character(:), allocatable :: words
+      character(32) :: buffer, form
+      integer :: decimals
+
+      decimals = 3
+      if (abs(value) > 0) decimals = 3 - floor(log10(abs(value)))
+      if (decimals > 7 .or. decimals < -5) then
+         write (buffer, '(es10.3)') value
+         words = trim(adjustl(buffer))
+         return
+      end if
+      write (form, '(a, i0, a)') '(f0.', max(0, decimals), ')'
+      write (buffer, form) value
+      words = trim(buffer)
+      do while (index(words, '.') > 0 .and. scan(words(len(words):), '0.') > 0)
+         decimals = len(words) - 1
+         if (words(len(words):) == '.') then
+            words = words(:decimals)
+            exit
+         end if
+         words = words(:decimals)
+      end do
+      if (words == '') words = '0'
+      if (words(1:1) == '.') words = '0'//words
+      if (len(words) > 1) then
+         if (words(1:2) == '-.') words = '-0'//words(2:)
+      end if
+   end function short
 
 end module text

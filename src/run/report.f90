@@ -12,7 +12,7 @@ module report
    use run_log, only: log_t
    use settings, only: settings_t
    use summary, only: summary_t
-   use text, only: to_text
+   use text, only: short, to_text
    use time_step, only: step_t
    use timers, only: timers_t
    implicit none
@@ -73,7 +73,7 @@ contains
          lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(model%cfl)//'), about ' &
                     //to_text(nint(cost%steps))//' steps to t = '//short(scene%time%end_time)
          lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
-         lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//to_text(omp_get_max_threads())//' threads' &
+         lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
                     //' (at '//short(typical_ns)//' ns per particle-step and core)'
          lines(10) = 'output        energy '//trim(scene%output%energy)//', probes '//trim(scene%output%probes) &
                      //', snapshots '//trim(scene%output%snapshots)
@@ -81,6 +81,13 @@ contains
       end associate
       call log%box(trim(scene%scene%title), lines)
    end subroutine start_box
+
+   function threads_text() result(words)
+      character(:), allocatable :: words
+
+      words = to_text(omp_get_max_threads())//' threads'
+      if (omp_get_max_threads() == 1) words = 'one thread'
+   end function threads_text
 
    ! sqrt(g d), or the speed given where there is no gravity.
    pure real(dp) function reference_speed(scene) result(speed)
@@ -129,38 +136,6 @@ contains
       if (model%walls%present(top_wall)) words = words//' top'
       words = words(2:)
    end function walls_text
-
-   ! A number in four significant digits, without trailing zeros.
-   pure function short(value) result(words)
-      real(dp), intent(in) :: value
-      character(:), allocatable :: words
-      character(32) :: buffer, form
-      integer :: decimals
-
-      decimals = 3
-      if (abs(value) > 0) decimals = 3 - floor(log10(abs(value)))
-      if (decimals > 7 .or. decimals < -5) then
-         write (buffer, '(es10.3)') value
-         words = trim(adjustl(buffer))
-         return
-      end if
-      write (form, '(a, i0, a)') '(f0.', max(0, decimals), ')'
-      write (buffer, form) value
-      words = trim(buffer)
-      do while (index(words, '.') > 0 .and. scan(words(len(words):), '0.') > 0)
-         decimals = len(words) - 1
-         if (words(len(words):) == '.') then
-            words = words(:decimals)
-            exit
-         end if
-         words = words(:decimals)
-      end do
-      if (words == '') words = '0'
-      if (words(1:1) == '.') words = '0'//words
-      if (len(words) > 1) then
-         if (words(1:2) == '-.') words = '-0'//words(2:)
-      end if
-   end function short
 
    !> Time by phase, budget and files.
    subroutine closing_table(log, timers, seconds, budget, run, path)

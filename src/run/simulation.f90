@@ -12,7 +12,7 @@ module simulation
    use run_log, only: log_t
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: settings_t
-   use text, only: to_text
+   use text, only: short, to_text
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t, wall_seconds
    implicit none
@@ -125,9 +125,9 @@ contains
       real(dp), parameter :: mach_limit = 0.1_dp, variation_limit = 0.01_dp
 
       if (run%mach > mach_limit .and. log%warning_count('Mach number') == 0) call log%warn('Mach number', &
-         'Mach number above 0.1 from t = '//to_text(run%time)//' on; a larger sound_speed would hold it')
+         'Mach number above 0.1 from t = '//short(run%time)//' on; a larger sound_speed would hold it')
       if (run%variation > variation_limit .and. log%warning_count('density') == 0) call log%warn('density', &
-         'density varies by more than 1 % from t = '//to_text(run%time)//' on')
+         'density varies by more than 1 % from t = '//short(run%time)//' on')
    end subroutine watch_limits
 
    subroutine explain_loss(model, p, run, problem)
