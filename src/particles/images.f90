@@ -228,13 +228,22 @@ contains
       real(dp), intent(in) :: gravity              !! along -y
       real(dp), intent(inout) :: x, y, u, v
       logical, intent(out) :: crossed
+      real(dp) :: depth
 
       crossed = .false.
       if (walls%present(left_wall)) call mirror(x, u, walls%at(left_wall), 1.0_dp, crossed)
       if (walls%present(right_wall)) call mirror(x, u, walls%at(right_wall), -1.0_dp, crossed)
       if (walls%present(bottom_wall)) then
-         v = sign(sqrt(max(0.0_dp, v**2 - 4*gravity*max(0.0_dp, walls%at(bottom_wall) - y))), v)
-         call mirror(y, v, walls%at(bottom_wall), 1.0_dp, crossed)
+         depth = max(0.0_dp, walls%at(bottom_wall) - y)
+         if (v**2 < 4*gravity*depth) then
+            ! Too slow to rise as far above the floor as it is below: it gets as high as its energy takes it.
+            y = walls%at(bottom_wall) + max(0.0_dp, v**2/(2*gravity) - depth)
+            v = 0
+            crossed = .true.
+         else
+            v = sign(sqrt(v**2 - 4*gravity*depth), v)
+            call mirror(y, v, walls%at(bottom_wall), 1.0_dp, crossed)
+         end if
       end if
       if (walls%present(top_wall)) then
          v = sign(sqrt(v**2 + 4*gravity*max(0.0_dp, y - walls%at(top_wall))), v)
