@@ -36,6 +36,7 @@ module run_log
       procedure :: open => open_log
       procedure :: line
       procedure :: note
+      procedure :: keep
       procedure :: transient
       procedure :: box
       procedure :: warn
@@ -90,6 +91,14 @@ contains
       if (.not. (self%quiet .or. self%terminal)) call to_screen(self, output_unit, text)
       call to_file(self, text)
    end subroutine note
+
+   !> Writes a line to the file only.
+   subroutine keep(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      call to_file(self, text)
+   end subroutine keep
 
    !> Shows a line, on a terminal only, that the next line of any kind replaces.
    subroutine transient(self, text)

@@ -102,6 +102,7 @@ module settings
       procedure :: spacing => particle_spacing
       procedure :: smoothing_length
       procedure :: alpha_total
+      procedure :: leans
    end type settings_t
 
 contains
@@ -132,6 +133,19 @@ contains
                        + k_2d*fluid%viscosity/(fluid%sound_speed*self%smoothing_length()*fluid%density)
       end associate
    end function alpha_total
+
+   !> Whether a body's left and right edges lie on walls.
+   pure function leans(self, body) result(on_wall)
+      class(settings_t), intent(in) :: self
+      type(body_settings), intent(in) :: body
+      logical :: on_wall(2)   !! left, right
+
+      real(dp), parameter :: margin = 1.0e-9_dp   ! of d: edges are given in decimals
+
+      on_wall = is_wall([self%domain%left, self%domain%right]) &
+                .and. abs([body%lower(1) - self%domain%lower(1), body%upper(1) - self%domain%upper(1)]) &
+                <= margin*self%scene%reference_length
+   end function leans
 
    !> True for a side of the box that holds the fluid back.
    elemental logical function is_wall(side)

@@ -20,6 +20,7 @@ module settings_check
    real(dp), parameter :: cfl_times_delta = 0.294_dp
    real(dp), parameter :: cfl_times_alpha = 0.932_dp
 
+   real(dp), parameter :: least_gap = 5.0_dp         ! walls [dx]: images reach 4 dx and a little more, and have no images
    real(dp), parameter :: good_mach = 0.1_dp         ! eq. 4: density varies by 1 %
    real(dp), parameter :: most_particles = 2.0e8_dp  ! positions in the arrays stay below 2**31
    real(dp), parameter :: slack = 1.0e-9_dp          ! of lengths in units of d: rounding of the input
@@ -87,7 +88,19 @@ contains
       if (any(setup%domain%upper <= setup%domain%lower)) then
          call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is empty: upper = ' &
                             //to_text(setup%domain%upper)//' must lie above and right of lower = '//to_text(setup%domain%lower))
+         return
       end if
+      if (.not. notes%clean('scene')) return
+      associate (domain => setup%domain, least => least_gap*setup%spacing())
+         if (is_wall(domain%left) .and. is_wall(domain%right) .and. domain%upper(1) - domain%lower(1) < least) then
+            call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is narrower than ' &
+                               //short(least)//', 5 dx between left and right wall: raise the resolution')
+         end if
+         if (is_wall(domain%bottom) .and. is_wall(domain%top) .and. domain%upper(2) - domain%lower(2) < least) then
+            call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is lower than ' &
+                               //short(least)//', 5 dx between bottom and top wall: raise the resolution')
+         end if
+      end associate
    end subroutine check_box
 
    !> The fluid should be only weakly compressible.
@@ -101,6 +114,7 @@ contains
 
       if (.not. notes%clean('fluid')) return
       mach = setup%fluid%reference_speed/setup%fluid%sound_speed
+      if (notes%clean('body')) call check_speeds(document, setup, notes)
       key = 'mach'
       if (.not. setup%fluid%mach > 0.0_dp) key = 'sound_speed'
       if (mach > largest_mach*(1.0_dp + slack)) then
@@ -112,6 +126,30 @@ contains
                             //' is above 0.1: the density will vary by more than 1 %')
       end if
    end subroutine check_mach
+
+   ! What the bodies start with must be slower than sound: their velocities, and falling by their own height.
+   subroutine check_speeds(document, setup, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(in) :: setup
+      type(findings_t), intent(inout) :: notes
+
+      real(dp) :: speed
+      integer :: i
+
+      do i = 1, size(setup%bodies)
+         associate (body => setup%bodies(i), c0 => setup%fluid%sound_speed)
+            speed = max(norm2(body%velocity), sqrt(setup%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
+            if (speed > 2*c0) then
+               call notes%mistake(document%place_of('body', i, 'velocity'), 'body', '&body number '//to_text(i) &
+                                  //': its speed, given or by falling its height, is '//short(speed/c0) &
+                                  //' times the sound speed '//short(c0)//'; raise sound_speed (or lower mach)')
+            else if (speed > largest_mach*c0) then
+               call notes%warning(document%place_of('body', i, 'velocity'), '&body number '//to_text(i) &
+                                  //': its speed, given or by falling its height, is '//short(speed/c0)//' times the sound speed')
+            end if
+         end associate
+      end do
+   end subroutine check_speeds
 
    !> Largest CFL number at which the frozen diffusion stays stable.
    !! Source: linear stability analysis of the scheme on a square lattice with h = 2 dx.
@@ -243,17 +281,14 @@ contains
       character(*), parameter :: what = "&body pressure = 'incompressible' needs "
       character(*), parameter :: instead = "; choose 'hydrostatic' or 'zero'"
       real(dp) :: margin
-      logical :: at_left, at_right
       character(:), allocatable :: need
 
       if (setup%bodies(number)%pressure /= 'incompressible') return
       if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid'))) return
       associate (body => setup%bodies(number), domain => setup%domain)
          margin = slack*setup%scene%reference_length
-         at_left = is_wall(domain%left) .and. abs(body%lower(1) - domain%lower(1)) <= margin
-         at_right = is_wall(domain%right) .and. abs(body%upper(1) - domain%upper(1)) <= margin
          need = ''
-         if (at_left .eqv. at_right) need = 'one side at a wall and the other free'
+         if (count(setup%leans(body)) /= 1) need = 'one side at a wall and the other free'
          if (.not. is_wall(domain%bottom) .or. abs(body%lower(2) - domain%lower(2)) > margin) then
             need = 'a body that stands on the floor'
          end if
@@ -375,6 +410,9 @@ contains
          if (verify(trim(name), allowed) > 0) then
             call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
                                //' may have letters, digits, _ and - only')
+         else if (name == 'time' .or. name == 'time_scaled') then
+            call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
+                               //' is the name of another column of probes.dat; choose another')
          else if (any(setup%probes(:number - 1)%name == name)) then
             call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
                                //' is the name of an earlier probe')

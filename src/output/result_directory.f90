@@ -36,6 +36,7 @@ module result_directory
       procedure :: file
       procedure :: snapshot_path
       procedure :: discard_if_empty
+      procedure :: discard
    end type result_directory_t
 
 contains
@@ -83,6 +84,15 @@ contains
       write (digits, '(i6.6)') number
       path = self%file('snapshot_'//digits//'.vtkhdf')
    end function snapshot_path
+
+   !> Deletes what dynsph writes from the directory, and what this run made of the path.
+   subroutine discard(self, problem)
+      class(result_directory_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
+
+      call delete_own_files(self%path, problem)
+      call self%discard_if_empty()
+   end subroutine discard
 
    !> Removes what this run made of the path, as far as it is still empty.
    subroutine discard_if_empty(self)
@@ -141,6 +151,16 @@ contains
          end do
          return
       end if
+      call delete_own_files(path, problem)
+   end subroutine deal_with_earlier_result
+
+   subroutine delete_own_files(path, problem)
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem
+      character(longest_path), allocatable :: found(:)
+      character(:), allocatable :: reason
+      integer :: i, k
+
       do i = 1, size(own_files)
          call find_files(path, trim(own_files(i)), found)
          do k = 1, size(found)
@@ -148,7 +168,7 @@ contains
             if (len(reason) > 0) call problem%raise(exit_files, "cannot delete '"//trim(found(k))//"': "//reason//hint_other())
          end do
       end do
-   end subroutine deal_with_earlier_result
+   end subroutine delete_own_files
 
    pure function hint_other() result(hint)
       character(:), allocatable :: hint

@@ -221,8 +221,8 @@ contains
 
    !> Puts a particle that crossed a wall back inside, its normal velocity pointing inwards.
    !!
-   !! Where it is lifted against gravity, its speed falls by what it gains in height, so
-   !! that the crossing adds no energy.
+   !! Where it is lifted against gravity, its speed falls by what it gains in height, so that the crossing adds no
+   !! energy; only a particle that is too slow even to reach the floor is put there.
    pure subroutine reflect(walls, gravity, x, y, u, v, crossed)
       type(walls_t), intent(in) :: walls
       real(dp), intent(in) :: gravity              !! along -y

@@ -1,7 +1,7 @@
 !> Pressure of a body at t = 0.
 module initial_pressure
    use kinds, only: dp
-   use settings, only: body_settings, is_wall, settings_t
+   use settings, only: body_settings, settings_t
    implicit none
    private
 
@@ -17,6 +17,7 @@ contains
       type(body_settings), intent(in) :: body
       real(dp), intent(in) :: position(2)
       real(dp) :: x
+      logical :: on_wall(2)
 
       select case (body%pressure)
       case ('hydrostatic')
@@ -24,8 +25,8 @@ contains
       case ('incompressible')
          ! x is the distance from the side wall that the column leans on.
          x = position(1) - body%lower(1)
-         if (is_wall(scene%domain%right) .and. abs(body%upper(1) - scene%domain%upper(1)) < scene%spacing()/2) &
-            x = body%upper(1) - position(1)
+         on_wall = scene%leans(body)
+         if (on_wall(2)) x = body%upper(1) - position(1)
          p = scene%fluid%density*scene%fluid%gravity &
              *released_column(x, position(2) - body%lower(2), body%upper(1) - body%lower(1), body%upper(2) - body%lower(2))
       case default

@@ -4,7 +4,7 @@ program main
    use build_info, only: build_type, git_id, version
    use command_line, only: command_line_t, parse_command_line, write_help
    use errors, only: end_program, failure
-   use file_system, only: delete_file, write_whole_file
+   use file_system, only: write_whole_file
    use lanes, only: nl
    use model, only: model_t
    use report, only: estimate, start_box
@@ -74,6 +74,7 @@ contains
          call run_into_directory(options, scene, warnings, problem)
          return
       end if
+      call screen%open('', options%quiet, problem)
       do k = 1, size(warnings)
          call screen%warn('input', trim(warnings(k)))
       end do
@@ -89,7 +90,8 @@ contains
       type(failure), intent(inout) :: problem
       type(result_directory_t) :: directory
       type(log_t) :: log
-      character(:), allocatable :: input_text, reason
+      character(:), allocatable :: input_text
+      logical :: began
       integer :: k
 
       call directory%prepare(output_directory(options), options%overwrite, problem)
@@ -106,12 +108,13 @@ contains
       call write_whole_file(directory%file(input_name), input_text, problem)
       if (problem%raised()) then
          call log%close()
-         call delete_file(directory%file(log_name), reason)
-         call directory%discard_if_empty()
+         call directory%discard(problem)
          return
       end if
-      call simulate(scene, input_text, directory, log, problem)
+      call simulate(scene, input_text, directory, log, began, problem)
       call log%close()
+      ! A run that could not start leaves nothing behind.
+      if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory
 
    !> --output, or results/ and the name of the scene file.

@@ -49,6 +49,7 @@ contains
       type(particles_t), intent(in) :: p       !! base state at t = 0
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
+      character(len(energy_units)) :: units(size(energy_units))
       character(:), allocatable :: message
 
       ! The cadences' texts were checked with the input.
@@ -60,8 +61,10 @@ contains
       self%head = snapshot_head(title=trim(scene%scene%title), version=version, git_id=git_id, input_text=input_text, &
                                 reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
                                 density=model%rho0, gravity=model%gravity)
+      units = energy_units
+      units(2) = scaled_unit(scene)
       if (.not. self%when_energy%is_never()) call self%energy_table%create(directory%file(energy_name), &
-                                          head_lines(scene, self%budget), energy_names, energy_units, problem)
+                                          head_lines(scene, self%budget), energy_names, units, problem)
       if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
          call start_probes(self, scene, model, directory, problem)
    end subroutine start
@@ -80,6 +83,16 @@ contains
       end associate
    end function time_unit
 
+   ! How time is scaled.
+   pure function scaled_unit(scene) result(unit)
+      type(settings_t), intent(in) :: scene
+      character(16) :: unit
+
+      unit = 'time'
+      if (scene%fluid%reference_speed > 0) unit = 't U/d'
+      if (scene%fluid%gravity > 0) unit = 't sqrt(g/d)'
+   end function scaled_unit
+
    function head_lines(scene, budget) result(lines)
       type(settings_t), intent(in) :: scene
       type(budget_t), intent(in) :: budget
@@ -88,7 +101,7 @@ contains
       lines(1) = 'title: '//scene%scene%title
       write (lines(2), '(a, es23.16)') 'dE_Mtot: ', budget%normaliser
       lines(3) = 'normalised by dE_Mtot = E_M(0) - E_M(at rest in the tank)'
-      if (.not. budget%has_rest) lines(3) = 'no tank to rest in: normalised by E_M(0), rest energies are 0'
+      if (.not. budget%has_rest) lines(3) = 'no tank to rest in: normalised by E_K(0) + E_C(0) + E_P(0) above the lowest particle'
    end function head_lines
 
    subroutine start_probes(self, scene, model, directory, problem)
@@ -112,10 +125,12 @@ contains
       end do
       call self%probe_table%create(directory%file(probes_name), lines, &
                                    [character(32) :: 'time', 'time_scaled', scene%probes%name], &
-                                   [character(32) :: 'time', 't sqrt(g/d)', spread('pressure', 1, size(scene%probes))], problem)
+                                   [character(32) :: 'time', scaled_unit(scene), spread('pressure', 1, size(scene%probes))], &
+                                   problem)
    end subroutine start_probes
 
-   !> Measures and writes what is due at the base state, or everything at the end of the run.
+   !> Measures and writes what is due at the base state, or everything at the end of the run. The budget is taken
+   !! as often as energies are written, and at the end in any case.
    subroutine record(self, scene, model, p, near, run, directory, last, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
@@ -127,9 +142,9 @@ contains
       logical, intent(in) :: last            !! the run ends here
       type(failure), intent(inout) :: problem
 
-      if (due(self%when_energy)) then
+      if (last .or. due(self%when_energy)) then
          call update_budget(self%budget, model, p, run%time, run%work_alpha, run%work_delta, run%work_walls)
-         call self%energy_table%row(energy_row(self, run), problem)
+         if (self%energy_table%is_open()) call self%energy_table%row(energy_row(self, run), problem)
       end if
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)

@@ -22,8 +22,11 @@ module report
 
    ! Measured cost of a step by utils/bench, for the estimate before a run.
    real(dp), parameter :: typical_ns = 550.0_dp   ! per particle-step and core
-   ! Violent flow takes about twice as many steps as dt = CFL h/c0 would give (paper, sec. 4).
-   real(dp), parameter :: typical_step_share = 0.6_dp
+   ! Violent flow takes more steps than dt = CFL h/c0 would give; measured in dam breaks (docs/results.md).
+   real(dp), parameter :: typical_step_share = 0.8_dp
+
+   character(*), parameter :: peak_names(4) = [character(24) :: 'time_kinetic_maximum', 'time_potential_maximum', &
+                                               'time_kinetic_maximum_2', 'time_elastic_peak']
 
    !> What a run will cost, roughly.
    type :: estimate_t
@@ -71,7 +74,7 @@ contains
          lines(5) = 'uses          '//used(scene, model)
          lines(6) = 'leaves out    '//unused(scene, model)
          lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(model%cfl)//'), about ' &
-                    //to_text(nint(cost%steps))//' steps to t = '//short(scene%time%end_time)
+                    //short(cost%steps)//' steps to t = '//short(scene%time%end_time)
          lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
          lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
                     //' (at '//short(typical_ns)//' ns per particle-step and core)'
@@ -156,13 +159,14 @@ contains
                //to_text(run%repeated)//' steps repeated']
       call log%box('Budget', lines)
       call log%box('Wall time', timers%table(seconds))
-      call log%line('results in '//path//': energy.dat, probes.dat, snapshots.vtkhdf.series, summary.txt, run.log')
+      call log%line('results in '//path//', what each file is: docs/files.md')
    end subroutine closing_table
 
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, particles, run, seconds, budget, problem)
+   subroutine write_summary_file(path, status, reason, particles, run, seconds, budget, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
+      character(*), intent(in) :: reason      !! why it failed; '' if it did not
       integer, intent(in) :: particles
       type(step_t), intent(in) :: run
       real(dp), intent(in) :: seconds
@@ -170,9 +174,11 @@ contains
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
+      integer :: k
 
       rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
       call file%add('status', status)
+      if (reason /= '') call file%add('reason', reason)
       call file%add('particles', particles)
       call file%add('steps', run%step)
       call file%add('time', run%time)
@@ -191,10 +197,10 @@ contains
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
       call file%add('steps_repeated', run%repeated)
-      call file%add('time_kinetic_maximum', budget%peak_time(1))
-      call file%add('time_potential_maximum', budget%peak_time(2))
-      call file%add('time_kinetic_maximum_2', budget%peak_time(3))
-      call file%add('time_elastic_peak', budget%peak_time(4))
+      do k = 1, size(peak_names)
+         if (budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), 'none')
+         if (.not. budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), budget%peak_time(k))
+      end do
       call file%write(path, problem)
    end subroutine write_summary_file
 

@@ -2,6 +2,7 @@
 module simulation
    use errors, only: exit_numerics, failure
    use kinds, only: dp
+   use images, only: bottom_wall
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
@@ -21,17 +22,20 @@ module simulation
    public :: simulate
 
    integer, parameter :: phase_output = 5
+   real(dp), parameter :: poor_balance = 5.0e-3_dp   !! error of the energy balance that is worth a warning
+   real(dp), parameter :: least_step_share = 1.0e-6_dp   !! of CFL h/c0; a run with smaller steps would not end
    character(*), parameter :: phases(5) = [character(32) :: 'sort, images, neighbours', 'gradients, viscosity', &
                                            'density diffusion, stage 1', 'stages 2 to 4', 'energies, probes, snapshots']
 
 contains
 
    !> Runs a checked scene and writes its results.
-   subroutine simulate(scene, input_text, directory, log, problem)
+   subroutine simulate(scene, input_text, directory, log, began, problem)
       type(settings_t), intent(in) :: scene
       character(*), intent(in) :: input_text   !! complete input
       type(result_directory_t), intent(in) :: directory
       type(log_t), intent(inout) :: log
+      logical, intent(out) :: began             !! there are results to keep
       type(failure), intent(inout) :: problem   !! exit_numerics, exit_files
       type(model_t) :: model
       type(particles_t) :: p
@@ -40,24 +44,40 @@ contains
       type(recorder_t) :: recorder
       type(timers_t) :: timers
       type(failure) :: closing
-      character(:), allocatable :: status
-      real(dp) :: started
+      character(:), allocatable :: status, reason
+      real(dp) :: started, seconds
 
+      began = .false.
       started = wall_seconds()
       call timers%initialise(phases)
       model = set_up_model(scene)
       call set_up_particles(scene, model, p)
       call start_box(log, scene, model, estimate(scene, model, p%n))
       call refresh(model, p, near, run, timers)
+      if (run%scattered) then
+         call problem%raise(exit_numerics, 'the fluid is further than 4 million strips (of height h) from y = ' &
+                            //short(model%walls%at(bottom_wall))//', the lower side of &domain: move the bodies closer')
+         return
+      end if
       call recorder%start(scene, input_text, model, p, directory, problem)
-      if (problem%raised()) return
+      if (problem%raised()) then
+         call recorder%finish(closing)
+         return
+      end if
+      began = .true.
       call main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
       ! A failed run keeps all that it has measured.
       call recorder%finish(closing)
-      call write_summary_file(directory%file(summary_name), status, p%n, run, wall_seconds() - started, recorder%budget, closing)
+      reason = ''
+      if (problem%raised()) reason = problem%message
+      seconds = wall_seconds() - started
+      call write_summary_file(directory%file(summary_name), status, reason, p%n, run, seconds, recorder%budget, closing)
       if (closing%raised()) call problem%raise(closing%code, closing%message)
+      if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
+         //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
+      if (reason /= '') call log%keep(reason)
       call log%report_warnings()
-      call closing_table(log, timers, wall_seconds() - started, recorder%budget, run, directory%path)
+      call closing_table(log, timers, seconds, recorder%budget, run, directory%path)
    end subroutine simulate
 
    subroutine main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
@@ -73,6 +93,8 @@ contains
       character(:), allocatable, intent(out) :: status
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
+      type(step_t) :: before
+      type(failure) :: ignored
       real(dp) :: started
 
       started = wall_seconds()
@@ -85,18 +107,21 @@ contains
          call timers%stop(phase_output)
          if (problem%raised()) status = 'failed: output'
          if (status /= '') exit
+         before = run
          call advance(model, p, near, run, scene%time%end_time, timers)
-         if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
-         if (.not. run%scattered) call watch_limits(log, run)
+         call check_step(scene, model, p, run, problem)
          if (.not. problem%raised()) call refresh(model, p, near, run, timers)
          if (run%scattered) call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank ' &
                                                //'after step '//to_text(run%step)//': close the open side it left by')
          if (problem%raised()) then
             status = 'failed: numerics'
-            ! The state before the step is still there; a second failure would hide the first.
-            call keep_last_state(recorder, scene, model, p, run, directory)
+            ! The state before the step is still there. A second failure would hide the first.
+            run = before
+            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, run, directory, ignored)
+            call recorder%record(scene, model, p, near, run, directory, .true., ignored)
             exit
          end if
+         call watch_limits(log, run)
          call progress%update(log, run%time, run%dt, run%step)
       end do
    end subroutine main_loop
@@ -130,6 +155,21 @@ contains
          'density varies by more than 1 % from t = '//short(run%time)//' on')
    end subroutine watch_limits
 
+   ! Whether the step's result can be gone on with.
+   subroutine check_step(scene, model, p, run, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(step_t), intent(in) :: run
+      type(failure), intent(inout) :: problem
+
+      if (run%scattered) return
+      if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+      if (run%dt < least_step_share*model%step_limit(0.0_dp) .and. run%time < scene%time%end_time) &
+         call problem%raise(exit_numerics, 'step '//to_text(run%step)//' at t = '//short(run%time)//' is only '//short(run%dt) &
+                            //' long: two particles close on each other too fast; a smaller cfl may help')
+   end subroutine check_step
+
    subroutine explain_loss(model, p, run, problem)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
@@ -144,21 +184,5 @@ contains
             //'; a smaller cfl or a larger sound_speed may help. The state before the step is in the last snapshot.')
       end associate
    end subroutine explain_loss
-
-   subroutine keep_last_state(recorder, scene, model, p, run, directory)
-      type(recorder_t), intent(inout) :: recorder
-      type(settings_t), intent(in) :: scene
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      type(step_t), intent(in) :: run
-      type(result_directory_t), intent(in) :: directory
-      type(step_t) :: before
-      type(failure) :: ignored
-
-      before = run
-      before%time = run%time - run%dt
-      before%step = run%step - 1
-      call recorder%save_snapshot(scene, model, p, before, directory, ignored)
-   end subroutine keep_last_state
 
 end module simulation

@@ -208,8 +208,8 @@ contains
       call timers%stop(phase_stages)
       near%stray = maxval(blocks%stray)
       strayed = near%stray > near%slack
-      ! A solution that has left its range is no better the third time.
-      if (any(blocks%lost_slot > 0) .and. near%slack > model%kernel%support) strayed = .false.
+      ! A solution that has left its range by so much is no better the second time.
+      if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
    end subroutine stages
 
    ! Completes the frozen density diffusion and goes from `base` to the second stage's state.
