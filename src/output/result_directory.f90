@@ -138,8 +138,7 @@ contains
       logical, intent(in) :: overwrite
       type(failure), intent(inout) :: problem
       character(longest_path), allocatable :: found(:)
-      character(:), allocatable :: reason
-      integer :: i, k
+      integer :: i
 
       if (.not. overwrite) then
          do i = 1, size(result_signs)
