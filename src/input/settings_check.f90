@@ -9,7 +9,7 @@ module settings_check
    use namelist_document, only: document_t
    use scene_keys, only: largest_mach
    use settings, only: body_settings, is_wall, settings_t
-   use text, only: quoted, to_text
+   use text, only: quoted, short, to_text
    implicit none
    private
 
@@ -177,12 +177,13 @@ contains
          limit = largest_cfl(delta, alpha)
          if (cfl > limit*(1.0_dp + slack)) then
             advice = 'lower cfl'
-            if (cfl <= cfl_acoustic .and. cfl*delta > cfl_times_delta) advice = advice//', or delta to '//short(cfl_times_delta/cfl)
+            if (cfl <= cfl_acoustic .and. cfl*delta > cfl_times_delta) &
+               advice = advice//', or delta to '//rounded_down(cfl_times_delta/cfl)
             if (cfl <= cfl_acoustic .and. cfl*alpha > cfl_times_alpha) advice = advice//', or alpha (with the viscosity) to ' &
-                                                                                //short(cfl_times_alpha/cfl)
+                                                                                //rounded_down(cfl_times_alpha/cfl)
             call notes%mistake(document%place_of('time', 1, 'cfl'), 'time', '&time cfl = '//to_text(cfl) &
                                //' is unstable with delta = '//to_text(delta)//' and alpha = '//short(alpha) &
-                               //': at most '//short(limit)//' = min(2.49, 0.294/delta, 0.932/alpha); '//advice)
+                               //': at most '//rounded_down(limit)//' = min(2.49, 0.294/delta, 0.932/alpha); '//advice)
          end if
       end associate
       if (setup%fluid%viscosity > 0.0_dp .and. setup%model%alpha > 0.0_dp) then
@@ -193,7 +194,7 @@ contains
    end subroutine check_stability
 
    !> A number rounded down to four digits, so that a limit can be copied from a message.
-   pure function short(number) result(words)
+   pure function rounded_down(number) result(words)
       real(dp), intent(in) :: number
       character(:), allocatable :: words
 
@@ -202,7 +203,7 @@ contains
       digit = 10.0_dp**(floor(log10(max(number, tiny(number)))) - 3)
       words = to_text(0.0_dp)
       if (number > 0.0_dp) words = trimmed_number(floor(number/digit + slack)*digit)
-   end function short
+   end function rounded_down
 
    !> A number to four digits, as text.
    pure function trimmed_number(number) result(words)
@@ -335,7 +336,7 @@ contains
       end do
       if (particles >= most_particles) then
          call notes%mistake(document%place_of('scene', 1, 'resolution'), 'scene', '&scene resolution = ' &
-                            //to_text(setup%scene%resolution)//' makes about '//short(particles)//' particles; at most ' &
+                            //to_text(setup%scene%resolution)//' makes about '//rounded_down(particles)//' particles; at most ' &
                             //to_text(most_particles)//' are possible: lower it')
       end if
    end subroutine check_particle_number
