@@ -4,8 +4,8 @@
 module scene_keys
    use key_visitor, only: above, any_number, at_least, between, key_visitor_t
    use kinds, only: dp
-   use settings, only: body_settings, choice_length, domain_settings, fluid_settings, model_settings, name_length, &
-                       output_settings, probe_settings, scene_settings, settings_t, time_settings
+   use settings, only: body_settings, choice_length, domain_settings, exact_settings, fluid_settings, force_settings, &
+                       model_settings, name_length, output_settings, probe_settings, scene_settings, settings_t, time_settings
    implicit none
    private
 
@@ -17,11 +17,15 @@ module scene_keys
    !> Largest Mach number that still may be called weakly compressible.
    real(dp), parameter, public :: largest_mach = 0.5_dp
 
-   character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'open']
+   character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
+
+   !> Solutions of module `exact`.
+   character(choice_length), parameter, public :: solution_names(*) = [character(choice_length) :: 'none', 'hydrostatic', &
+      'standing_wave', 'oscillating_drop', 'impact', 'taylor_green', 'acoustic_wave', 'couette', 'poiseuille', 'rotating_square']
 
    !> What snapshots can hold.
    character(name_length), parameter :: field_names(*) = &
-      [character(name_length) :: 'velocity', 'pressure', 'density']
+      [character(name_length) :: 'velocity', 'pressure', 'density', 'vorticity', 'alpha', 'delta', 'dissipation']
 
 contains
 
@@ -38,12 +42,16 @@ contains
       call visit_domain(keys, setup%domain)
       call keys%announce('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.)
       call visit_fluid(keys, setup%fluid)
+      call keys%announce('force', 'What acts on the fluid besides gravity.', .false., .false.)
+      call visit_force(keys, setup%force)
       call keys%announce('body', 'A block of fluid at the start.', .true., .true.)
       do i = 1, size(setup%bodies)
          call visit_body(keys, setup%bodies(i), i)
       end do
       call keys%announce('model', 'The diffusive terms.', .false., .false.)
       call visit_model(keys, setup%model)
+      call keys%announce('exact', 'The exact solution that the scene follows; errors are written to errors.dat.', .false., .false.)
+      call visit_exact(keys, setup%exact)
       call keys%announce('time', 'The time step and the end of the run.', .true., .false.)
       call visit_time(keys, setup%time)
       call keys%announce('output', "What is written and how often: '10 steps', '0.05 time' or 'never'.", .false., .false.)
@@ -81,6 +89,8 @@ contains
       call keys%choice_key('right', domain%right, side_choices, 'What the side at the largest x is.')
       call keys%choice_key('bottom', domain%bottom, side_choices, 'What the side at the least y is.')
       call keys%choice_key('top', domain%top, side_choices, 'What the side at the largest y is.')
+      call keys%vector_key('wall_speeds', domain%wall_speeds, any_number(), 'm/s', &
+                           'Speeds of the no-slip sides left, right, bottom and top, along themselves.')
       call keys%choice_key('images', domain%images, [character(choice_length) :: 'hydrostatic', 'mirror'], &
                            'Density of the mirror images: with the hydrostatic difference, or copied.')
       call keys%leave()
@@ -102,8 +112,24 @@ contains
                          'Sound speed, instead of mach. 0: not given.')
       call keys%real_key('viscosity', fluid%viscosity, at_least(0.0_dp), 'Pa s', &
                          'Dynamic viscosity; acts in addition to alpha.')
+      call keys%real_key('reynolds', fluid%reynolds, at_least(0.0_dp), '-', &
+                         'Reynolds number rho0 U d/mu instead of viscosity, U = sqrt(g d) or reference_speed. 0: not given.')
       call keys%leave()
    end subroutine visit_fluid
+
+   !> Keys of &force.
+   subroutine visit_force(keys, force)
+      class(key_visitor_t), intent(inout) :: keys
+      type(force_settings), intent(inout) :: force
+
+      call keys%enter('force', 1)
+      call keys%vector_key('acceleration', force%acceleration, any_number(), 'm/s2', &
+                           'The same everywhere; its work is W_f in the energy table.')
+      call keys%real_key('central_rate', force%central_rate, at_least(0.0_dp), '1/s', &
+                         'w of a central field -w**2 (r - centre); it counts as potential energy.')
+      call keys%vector_key('centre', force%centre, any_number(), 'm', 'Centre of the central field, x and y.')
+      call keys%leave()
+   end subroutine visit_force
 
    !> Keys of one &body.
    subroutine visit_body(keys, body, number)
@@ -112,12 +138,17 @@ contains
       integer, intent(in) :: number
 
       call keys%enter('body', number)
-      call keys%choice_key('shape', body%shape, [character(choice_length) :: 'rectangle'], 'Shape of the block.')
-      call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner, x and y.', required=.true.)
-      call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner, x and y.', required=.true.)
+      call keys%choice_key('shape', body%shape, [character(choice_length) :: 'rectangle', 'disc'], &
+                           'Shape: a rectangle from lower to upper, or a disc around centre.')
+      call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner of a rectangle, x and y.')
+      call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner of a rectangle, x and y.')
+      call keys%vector_key('centre', body%centre, any_number(), 'm', 'Centre of a disc, x and y.')
+      call keys%real_key('radius', body%radius, at_least(0.0_dp), 'm', 'Radius of a disc.')
       call keys%vector_key('velocity', body%velocity, any_number(), 'm/s', 'Velocity at the start, x and y.')
+      call keys%choice_key('flow', body%flow, [character(choice_length) :: 'uniform', 'exact'], &
+                           'Velocity at the start: velocity everywhere, or that of &exact solution.')
       call keys%choice_key('pressure', body%pressure, &
-                           [character(choice_length) :: 'hydrostatic', 'incompressible', 'zero'], &
+                           [character(choice_length) :: 'hydrostatic', 'incompressible', 'zero', 'exact'], &
                            'Pressure at the start; incompressible: of a column that has just lost its gate.')
       call keys%leave()
    end subroutine visit_body
@@ -128,12 +159,31 @@ contains
       type(model_settings), intent(inout) :: model
 
       call keys%enter('model', 1)
-      call keys%choice_key('diffusion', model%diffusion, [character(choice_length) :: 'constant'], &
-                           'How alpha and delta are chosen: the same everywhere.')
+      call keys%choice_key('diffusion', model%diffusion, [character(choice_length) :: 'constant', 'dynamic'], &
+                           'How alpha and delta are chosen: the same everywhere, or from the rate of strain (eqs. 19-26).')
       call keys%real_key('alpha', model%alpha, at_least(0.0_dp), '-', 'Coefficient of the viscous term.')
       call keys%real_key('delta', model%delta, at_least(0.0_dp), '-', 'Coefficient of the density diffusion.')
+      call keys%real_key('c_s', model%c_s, at_least(0.0_dp), '-', 'Smagorinsky constant C_S of the dynamic model.')
+      call keys%real_key('c_delta', model%c_delta, at_least(0.0_dp), '-', &
+                         'Constant C_delta of the density diffusion of the dynamic model.')
+      call keys%real_key('limit', model%limit, above(0.0_dp), '-', 'Largest alpha_i and delta_i of the dynamic model.')
+      call keys%choice_key('limiter', model%limiter, [character(choice_length) :: 'coefficients', 'strain_rate'], &
+                           'What the limit clips: alpha_i and delta_i each, or ||D|| so that both keep their ratio.')
       call keys%leave()
    end subroutine visit_model
+
+   !> Keys of &exact.
+   subroutine visit_exact(keys, exact)
+      class(key_visitor_t), intent(inout) :: keys
+      type(exact_settings), intent(inout) :: exact
+
+      call keys%enter('exact', 1)
+      call keys%choice_key('solution', exact%solution, solution_names, 'Which solution; docs/scenes.md says what each needs.')
+      call keys%real_key('amplitude', exact%amplitude, any_number(), 'of the solution', &
+                         'Its amplitude: wave height/depth, A0 [1/s], speed [m/s], rotation [1/s] or share of rho0.')
+      call keys%integer_key('waves', exact%waves, at_least(1.0_dp), '-', 'Wavelengths in the box, of waves.')
+      call keys%leave()
+   end subroutine visit_exact
 
    !> Keys of &time.
    subroutine visit_time(keys, time)
@@ -159,6 +209,7 @@ contains
       call keys%enter('output', 1)
       call keys%text_key('energy', output%energy, 'How often a line of the energy table is written.')
       call keys%text_key('probes', output%probes, 'How often a line of the probe table is written.')
+      call keys%text_key('errors', output%errors, 'How often a line of the error table is written, with &exact.')
       call keys%text_key('snapshots', output%snapshots, 'How often all particles are written.')
       call keys%list_key('fields', output%fields, output%n_fields, field_names, 'What snapshots hold.')
       call keys%choice_key('precision', output%precision, [character(8) :: 'single', 'double'], &

@@ -7,8 +7,8 @@ module settings
    implicit none
    private
 
-   public :: settings_t, scene_settings, domain_settings, fluid_settings, body_settings
-   public :: model_settings, time_settings, output_settings, probe_settings
+   public :: settings_t, scene_settings, domain_settings, fluid_settings, force_settings, body_settings
+   public :: exact_settings, model_settings, time_settings, output_settings, probe_settings
    public :: is_wall
 
    integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
@@ -33,33 +33,57 @@ module settings
       character(choice_length) :: right = 'free_slip'
       character(choice_length) :: bottom = 'free_slip'
       character(choice_length) :: top = 'open'
+      real(dp) :: wall_speeds(4) = 0.0_dp   !! of no-slip sides left, right, bottom, top, along the side [m/s]
       character(choice_length) :: images = 'hydrostatic'   !! density of mirror images
    end type domain_settings
 
-   !> &fluid: its constants; after reading, `sound_speed` is the one used.
+   !> &fluid: its constants; after reading, `sound_speed` and `viscosity` are those used.
    type :: fluid_settings
       real(dp) :: density = 1.0_dp           !! rho0, at zero pressure [kg/m3]
       real(dp) :: gravity = 1.0_dp           !! acts along -y [m/s2]
       real(dp) :: mach = 0.0_dp              !! 0: sound_speed was given instead [-]
-      real(dp) :: reference_speed = 0.0_dp   !! U_ref; 0: not given [m/s]
+      real(dp) :: reference_speed = 0.0_dp   !! U_ref; 0: not given, or found by a coarse run [m/s]
+      logical :: find_reference_speed = .false.   !! reference_speed = 'auto'
       real(dp) :: sound_speed = 0.0_dp       !! c0 [m/s]
       real(dp) :: viscosity = 0.0_dp         !! dynamic viscosity mu [Pa s]
+      real(dp) :: reynolds = 0.0_dp          !! rho0 U d/mu, instead of viscosity; 0: not given [-]
    end type fluid_settings
 
-   !> &body: a block of fluid at t = 0.
+   !> &force: what acts on the fluid besides gravity.
+   type :: force_settings
+      real(dp) :: acceleration(2) = 0.0_dp   !! the same everywhere [m/s2]
+      real(dp) :: central_rate = 0.0_dp      !! w of the central field -w**2 (r - centre) [1/s]
+      real(dp) :: centre(2) = 0.0_dp         !! of the central field [m]
+   end type force_settings
+
+   !> &body: a block of fluid at t = 0. After reading, `lower` and `upper` enclose a disc too.
    type :: body_settings
       character(choice_length) :: shape = 'rectangle'
       real(dp) :: lower(2) = [0.0_dp, 0.0_dp]      !! lower left corner [m]
       real(dp) :: upper(2) = [0.0_dp, 0.0_dp]      !! upper right corner [m]
+      real(dp) :: centre(2) = [0.0_dp, 0.0_dp]     !! of a disc [m]
+      real(dp) :: radius = 0.0_dp                  !! of a disc [m]
       real(dp) :: velocity(2) = [0.0_dp, 0.0_dp]   !! [m/s]
+      character(choice_length) :: flow = 'uniform'   !! velocity at the start
       character(choice_length) :: pressure = 'hydrostatic'
    end type body_settings
+
+   !> &exact: the exact solution that the scene follows.
+   type :: exact_settings
+      character(choice_length) :: solution = 'none'
+      real(dp) :: amplitude = 0.0_dp   !! what it is of: docs/scenes.md
+      integer :: waves = 1             !! wavelengths in the box
+   end type exact_settings
 
    !> &model: the diffusive terms.
    type :: model_settings
       character(choice_length) :: diffusion = 'constant'
       real(dp) :: alpha = 0.01_dp   !! of the viscous term [-]
       real(dp) :: delta = 0.1_dp    !! of the density diffusion [-]
+      real(dp) :: c_s = 0.12_dp     !! Smagorinsky's constant C_S of the dynamic model [-]
+      real(dp) :: c_delta = 1.5_dp  !! C_delta of the dynamic model [-]
+      real(dp) :: limit = 0.2_dp    !! of alpha_i and delta_i of the dynamic model [-]
+      character(choice_length) :: limiter = 'coefficients'   !! what the limit clips
    end type model_settings
 
    !> &time: the step and the end of the run.
@@ -74,6 +98,7 @@ module settings
    type :: output_settings
       character(name_length) :: energy = '10 steps'
       character(name_length) :: probes = '1 steps'
+      character(name_length) :: errors = '10 steps'
       character(name_length) :: snapshots = '1 time'
       character(name_length) :: fields(max_fields) = &
          [character(name_length) :: 'velocity', 'pressure', '', '', '', '', '', '', '', '', '', '']
@@ -93,6 +118,8 @@ module settings
       type(scene_settings) :: scene
       type(domain_settings) :: domain
       type(fluid_settings) :: fluid
+      type(force_settings) :: force
+      type(exact_settings) :: exact
       type(model_settings) :: model
       type(time_settings) :: time
       type(output_settings) :: output
@@ -121,7 +148,7 @@ contains
       smoothing_length = smoothing_ratio*self%spacing()
    end function smoothing_length
 
-   !> The alpha that acts: the model's and the fluid's viscosity together [-].
+   !> The alpha that acts everywhere: the constant model's and the fluid's viscosity together [-].
    !! Source: eq. 17, mu = alpha h c0 rho0/K with K = 8 in two dimensions.
    pure real(dp) function alpha_total(self)
       class(settings_t), intent(in) :: self
@@ -129,8 +156,8 @@ contains
       real(dp), parameter :: k_2d = 8.0_dp
 
       associate (fluid => self%fluid)
-         alpha_total = self%model%alpha &
-                       + k_2d*fluid%viscosity/(fluid%sound_speed*self%smoothing_length()*fluid%density)
+         alpha_total = k_2d*fluid%viscosity/(fluid%sound_speed*self%smoothing_length()*fluid%density)
+         if (self%model%diffusion == 'constant') alpha_total = alpha_total + self%model%alpha
       end associate
    end function alpha_total
 
@@ -151,7 +178,7 @@ contains
    elemental logical function is_wall(side)
       character(*), intent(in) :: side   !! one of &domain left, right, bottom, top
 
-      is_wall = side /= 'open'
+      is_wall = side == 'free_slip' .or. side == 'no_slip'
    end function is_wall
 
 end module settings

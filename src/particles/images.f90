@@ -17,8 +17,11 @@ module images
 
    !> Mirror planes and what is continued across them.
    type :: walls_t
-      logical :: present(4) = .false.          !! left, right, bottom, top
+      logical :: present(4) = .false.          !! left, right, bottom, top: a mirror plane, free slip or not
+      logical :: no_slip(4) = .false.          !! tangential velocity is reversed in the viscous terms
+      logical :: periodic(2) = .false.         !! left and right, bottom and top are the same line
       real(dp) :: at(4) = 0                    !! x of left and right, y of bottom and top
+      real(dp) :: speed(4) = 0                 !! of a no-slip wall, along itself
       real(dp) :: density_slope(2) = 0         !! rho0 g/c0**2, the hydrostatic gradient of rho; 0 for the pure mirror
    end type walls_t
 

@@ -16,11 +16,21 @@ module model
       real(dp) :: c0 = 0              !! sound speed
       real(dp) :: rho0 = 0            !! density at p = 0
       real(dp) :: gravity = 0         !! along -y
-      real(dp) :: alpha = 0           !! viscous coefficient, real viscosity included
-      real(dp) :: delta = 0           !! density-diffusion coefficient
+      real(dp) :: acceleration(2) = 0 !! of a uniform force besides gravity
+      real(dp) :: central_rate = 0    !! w of a central force -w**2 (r - centre)
+      real(dp) :: centre(2) = 0
+      logical :: dynamic = .false.    !! alpha_i and delta_i from the rate of strain
+      real(dp) :: alpha = 0           !! viscous coefficient that acts everywhere, real viscosity included
+      real(dp) :: delta = 0           !! density-diffusion coefficient of the constant model
+      real(dp) :: alpha_per_strain = 0   !! alpha_i/||D||, eqs. 22 and 24
+      real(dp) :: delta_per_strain = 0   !! delta_i/||D||, eqs. 21 and 23
+      real(dp) :: limit = 0           !! of alpha_i and delta_i
+      real(dp) :: largest_strain = huge(1.0_dp)   !! ||D|| is clipped here
+      real(dp) :: viscosity = 0       !! real dynamic viscosity, for Q_omega (eq. 29)
       real(dp) :: cfl = 0             !! Courant number of eq. 8
    contains
       procedure :: step_limit
+      procedure :: has_force
    end type model_t
 
 contains
@@ -32,5 +42,12 @@ contains
 
       step_limit = self%cfl*self%kernel%h/(self%c0 + self%kernel%h*largest_pi)
    end function step_limit
+
+   !> Whether a uniform force acts besides gravity.
+   pure logical function has_force(self)
+      class(model_t), intent(in) :: self
+
+      has_force = any(abs(self%acceleration) > 0)
+   end function has_force
 
 end module model

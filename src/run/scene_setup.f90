@@ -24,10 +24,35 @@ contains
       model%rho0 = scene%fluid%density
       model%gravity = scene%fluid%gravity
       model%alpha = scene%alpha_total()
-      model%delta = scene%model%delta
+      model%acceleration = scene%force%acceleration
+      model%central_rate = scene%force%central_rate
+      model%centre = scene%force%centre
+      model%viscosity = scene%fluid%viscosity
       model%cfl = scene%time%cfl
       model%walls = set_up_walls(scene)
+      model%dynamic = scene%model%diffusion == 'dynamic'
+      if (model%dynamic) then
+         call set_up_dynamic(scene, model)
+      else
+         model%delta = scene%model%delta
+      end if
    end function set_up_model
+
+   ! Eqs. 19-26: nu_T = (C_S l)**2 ||D||, alpha_i = K nu_T/(c0 h), nu_delta = (C_delta l)**2 ||D||,
+   ! delta_i = nu_delta/(c0 h), with the filter length l = 2h.
+   pure subroutine set_up_dynamic(scene, model)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(inout) :: model
+      real(dp), parameter :: k_2d = 8
+
+      associate (h => model%kernel%h, c0 => model%c0, input => scene%model)
+         model%alpha_per_strain = k_2d*(input%c_s*2*h)**2/(c0*h)
+         model%delta_per_strain = (input%c_delta*2*h)**2/(c0*h)
+         model%limit = input%limit
+         if (input%limiter == 'strain_rate') &
+            model%largest_strain = input%limit/max(model%alpha_per_strain, model%delta_per_strain, tiny(1.0_dp))
+      end associate
+   end subroutine set_up_dynamic
 
    pure type(walls_t) function set_up_walls(scene) result(walls)
       type(settings_t), intent(in) :: scene
@@ -37,9 +62,14 @@ contains
          walls%present(right_wall) = is_wall(domain%right)
          walls%present(bottom_wall) = is_wall(domain%bottom)
          walls%present(top_wall) = is_wall(domain%top)
+         walls%no_slip = [domain%left, domain%right, domain%bottom, domain%top] == 'no_slip'
+         walls%periodic = [domain%left, domain%bottom] == 'periodic'
+         walls%speed = domain%wall_speeds
          walls%at = [domain%lower(1), domain%upper(1), domain%lower(2), domain%upper(2)]
-         if (domain%images == 'hydrostatic') &
-            walls%density_slope = [0.0_dp, -fluid%density*fluid%gravity/fluid%sound_speed**2]
+         if (domain%images == 'hydrostatic') then
+            walls%density_slope = fluid%density/fluid%sound_speed**2*(scene%force%acceleration - [0.0_dp, fluid%gravity])
+            where (walls%periodic) walls%density_slope = 0
+         end if
       end associate
    end function set_up_walls
 

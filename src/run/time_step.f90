@@ -38,7 +38,8 @@ module time_step
       integer(i8) :: repeated = 0           !! steps repeated with a larger search margin
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
-      real(dp) :: work_walls = 0            !! energy given by the walls' images
+      real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
+      real(dp) :: work_force = 0            !! energy given by the uniform force
       real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, at the end of the last step
       real(dp) :: speed = 0                 !! max |u| at the end of the last step
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 at the end of the last step
