@@ -99,8 +99,9 @@ contains
                vx(l) = vx(l) + dv*gx
                vy(l) = vy(l) + dv*gy
                pi_ij = (du*dx + dv*dy)*(inverse*inverse)
-               other = min(t, abs(owner(j) - oi(l)))
-               pi_max(l) = max(pi_max(l), merge(abs(pi_ij), 0.0_dp, other > 0))
+               ! 1 for another particle within the support, else 0, without a branch: with one, nothing here is vectorised.
+               other = min(1.0_dp, huge(1.0_dp)*min(t, abs(owner(j) - oi(l))))
+               pi_max(l) = max(pi_max(l), other*abs(pi_ij))
             end do
          end do
       end do

@@ -47,7 +47,7 @@ contains
       integer, intent(in) :: particles
 
       cost%particles = particles
-      cost%dt = model%step_limit(0.0_dp)
+      cost%dt = model%longest_step()
       cost%steps = scene%time%end_time/(typical_step_share*cost%dt)
       if (scene%time%max_steps > 0) cost%steps = min(cost%steps, real(scene%time%max_steps, dp))
       cost%seconds = cost%steps*particles*typical_ns*1.0e-9_dp/omp_get_max_threads()

@@ -40,6 +40,7 @@ module time_step
       integer :: step = 0                   !! steps done
       integer(i8) :: crossings = 0          !! particles put back behind a wall
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
+      integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
       integer(i8) :: repeated = 0           !! steps repeated with a larger search margin
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
@@ -89,7 +90,7 @@ contains
       call timers%start(phase_sort)
       near%slack = max(0.02_dp*model%dx, 2*near%stray)
       expected = run%dt
-      if (run%step == 0) expected = model%step_limit(0.0_dp)
+      if (run%step == 0) expected = model%longest_step()
       call find_neighbours(model, p, near, run, expected)
       call timers%stop(phase_sort)
    end subroutine refresh
@@ -115,14 +116,12 @@ contains
       real(dp), intent(in) :: last_time
       type(timers_t), intent(inout) :: timers
       type(block_t), allocatable :: blocks(:)
-      real(dp) :: largest_pi
       logical :: strayed
 
       do
          allocate (blocks((near%n_clusters + block_clusters - 1)/block_clusters))
          call first_sums(model, p, near, blocks, timers)
-         largest_pi = maxval(blocks%largest_pi)
-         run%dt = min(model%step_limit(largest_pi), last_time - run%time)
+         run%dt = min(stable_step(model, blocks), last_time - run%time)
          if (run%dt - near%tau <= near%image_travel) then
             call stages(model, p, near, run%dt, blocks, timers, strayed)
             if (.not. strayed) exit
@@ -134,12 +133,21 @@ contains
          call sort_again(model, p, near, run, timers)
          if (run%scattered) return
       end do
-      call collect(model, run, blocks)
+      call collect(model, run, last_time, blocks)
       if (p%features%dissipation) &
          p%dissipated(1:p%n_own) = p%dissipated(1:p%n_own) + run%dt*p%dissipating(1:p%n_own)
       run%step = run%step + 1
       run%time = run%time + run%dt
    end subroutine advance
+
+   ! The step of eq. 8 and the diffusive limits.
+   pure real(dp) function stable_step(model, blocks)
+      type(model_t), intent(in) :: model
+      type(block_t), intent(in) :: blocks(:)
+
+      stable_step = model%step_limit(maxval(blocks%largest_pi), model%alpha + maxval(blocks%largest_alpha), &
+                                     max(model%delta, maxval(blocks%largest_delta)))
+   end function stable_step
 
    ! Sorts the unchanged base state again, for the step that is known now.
    subroutine sort_again(model, p, near, run, timers)
@@ -498,13 +506,15 @@ contains
    end subroutine finish_cluster
 
    ! Sums over the blocks in their order, so that the result does not depend on the number of threads.
-   subroutine collect(model, run, blocks)
+   subroutine collect(model, run, last_time, blocks)
       type(model_t), intent(in) :: model
       type(step_t), intent(inout) :: run
+      real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
-
       real(dp) :: moving_walls
 
+      if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
+         run%limited = run%limited + 1
       moving_walls = run%dt*sum(blocks%wall_power)
       run%work_alpha = run%work_alpha + sum(blocks%work(1)) - moving_walls
       run%work_delta = run%work_delta + sum(blocks%work(2))
