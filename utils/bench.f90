@@ -170,7 +170,7 @@ contains
       write (output_unit, '(a32, es12.3, es18.3)') 'particle-steps per second', 1.0e9_dp/ns(5, :)
       write (output_unit, '(a, f0.2)') 'speed-up ', ns(5, 1)/ns(5, 2)
       write (output_unit, '(a, l1)') 'bit-equal ', equal
-      write (output_unit, '(a, f0.0)') 'bytes per particle in particle arrays ', real(bytes_per_slot(), dp)*p%capacity/p%n
+      write (output_unit, '(a, f0.0)') 'bytes per particle in particle arrays ', real(bytes_per_slot(p%features), dp)*p%capacity/p%n
    end subroutine print_table
 
 end program bench

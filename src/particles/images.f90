@@ -1,9 +1,10 @@
-!> Mirror images of particles behind free-slip walls.
+!> Images of particles beyond the sides of the box: mirrored at walls, moved by a period at periodic sides.
 !!
-!! Source: Colagrossi & Landrini 2003. An image has its source's mass, volume, density and tangential velocity,
+!! Source: Colagrossi & Landrini 2003. A mirror image has its source's mass, volume, density and tangential velocity,
 !! the opposite normal velocity, and stands at the mirrored position; near a corner there is a doubly mirrored one
 !! too. By default density is corrected by the hydrostatic difference between image and source, and the
 !! density gradient accordingly, so that a linear hydrostatic field is continued exactly (docs/equations.md).
+!! At no-slip walls the viscous terms see another tangential velocity: `fill_no_slip`.
 module images
    use kinds, only: dp
    use particles, only: particles_t, state_t, reserve_slots
@@ -11,11 +12,12 @@ module images
    implicit none
    private
 
-   public :: walls_t, images_t, list_images, fill_images, fill_image_gradients, outside, reflect
+   public :: walls_t, images_t, list_images, fill_images, fill_image_gradients, fill_image_copies, fill_no_slip
+   public :: outside, reflect, wrap
 
    integer, parameter, public :: left_wall = 1, right_wall = 2, bottom_wall = 3, top_wall = 4
 
-   !> Mirror planes and what is continued across them.
+   !> What the sides of the box are and what is continued across them.
    type :: walls_t
       logical :: present(4) = .false.          !! left, right, bottom, top: a mirror plane, free slip or not
       logical :: no_slip(4) = .false.          !! tangential velocity is reversed in the viscous terms
@@ -35,7 +37,12 @@ module images
       real(dp), allocatable, private :: x(:), y(:)
    end type images_t
 
-   ! Which vertical and which horizontal wall mirrors: sides and corners; 0 for none.
+   !> A coordinate's image is sign*coordinate + offset, for each combination below.
+   type :: mapping_t
+      real(dp) :: sign_x(8), sign_y(8), offset_x(8), offset_y(8)
+   end type mapping_t
+
+   ! Which vertical and which horizontal side makes the image: sides and corners; 0 for none.
    integer, parameter :: vertical(8) = [1, 2, 0, 0, 1, 2, 1, 2]
    integer, parameter :: horizontal(8) = [0, 0, 3, 4, 3, 3, 4, 4]
 
@@ -51,19 +58,23 @@ contains
       type(particles_t), intent(inout) :: p   !! n_slots is set; owner of the images too
       real(dp), intent(in) :: tau             !! time that positions are predicted ahead by
       real(dp), intent(in) :: reach
+      type(mapping_t) :: map
       real(dp) :: x, y
       integer :: i, c, k, n
+      logical :: sides(4)
 
       self%n = 0
-      if (any(walls%present)) then
+      sides = has_images(walls)
+      if (any(sides)) then
+         map = mappings(walls)
          do i = 1, p%n_own
             if (p%id(i) == 0) cycle
             x = p%base%x(i) + tau*p%base%u(i)
             y = p%base%y(i) + tau*p%base%v(i)
-            if (.not. near_any(walls, x, y, reach)) cycle
+            if (.not. near_any(walls, sides, x, y, reach)) cycle
             do c = 1, size(vertical)
-               if (near(walls, vertical(c), x, reach) .and. near(walls, horizontal(c), y, reach)) &
-                  call append(self, walls, i, c, x, y)
+               if (near(walls, sides, vertical(c), x, reach) .and. near(walls, sides, horizontal(c), y, reach)) &
+                  call append(self, i, c, map%sign_x(c)*x + map%offset_x(c), map%sign_y(c)*y + map%offset_y(c))
             end do
          end do
       end if
@@ -83,31 +94,40 @@ contains
       end do
    end subroutine list_images
 
-   pure logical function near_any(walls, x, y, reach)
+   ! The sides that there are images beyond.
+   pure function has_images(walls) result(sides)
       type(walls_t), intent(in) :: walls
+      logical :: sides(4)
+
+      sides = walls%present .or. walls%periodic([1, 1, 2, 2])
+   end function has_images
+
+   pure logical function near_any(walls, sides, x, y, reach)
+      type(walls_t), intent(in) :: walls
+      logical, intent(in) :: sides(4)
       real(dp), intent(in) :: x, y, reach
 
-      near_any = (walls%present(1) .and. x - walls%at(1) < reach) .or. (walls%present(2) .and. walls%at(2) - x < reach) &
-                 .or. (walls%present(3) .and. y - walls%at(3) < reach) .or. (walls%present(4) .and. walls%at(4) - y < reach)
+      near_any = (sides(1) .and. x - walls%at(1) < reach) .or. (sides(2) .and. walls%at(2) - x < reach) &
+                 .or. (sides(3) .and. y - walls%at(3) < reach) .or. (sides(4) .and. walls%at(4) - y < reach)
    end function near_any
 
-   ! Whether a coordinate is closer than reach to wall number `wall`; true for wall 0, which mirrors nothing.
-   pure logical function near(walls, wall, coordinate, reach)
+   ! Whether a coordinate is closer than reach to side number `side`; true for 0, which makes no image.
+   pure logical function near(walls, sides, side, coordinate, reach)
       type(walls_t), intent(in) :: walls
-      integer, intent(in) :: wall
+      logical, intent(in) :: sides(4)
+      integer, intent(in) :: side
       real(dp), intent(in) :: coordinate, reach
 
       near = .true.
-      if (wall == 0) return
+      if (side == 0) return
       near = .false.
-      if (walls%present(wall)) near = abs(coordinate - walls%at(wall)) < reach
+      if (sides(side)) near = abs(coordinate - walls%at(side)) < reach
    end function near
 
-   subroutine append(self, walls, i, c, x, y)
+   subroutine append(self, i, c, x, y)
       type(images_t), intent(inout) :: self
-      type(walls_t), intent(in) :: walls
       integer, intent(in) :: i, c
-      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: x, y   !! of the image
       integer :: n
 
       n = self%n + 1
@@ -116,8 +136,6 @@ contains
       self%unsorted_walls(n) = c
       self%x(n) = x
       self%y(n) = y
-      if (vertical(c) > 0) self%x(n) = 2*walls%at(vertical(c)) - x
-      if (horizontal(c) > 0) self%y(n) = 2*walls%at(horizontal(c)) - y
       self%used(n) = 1
       self%n = n
    end subroutine append
@@ -140,25 +158,26 @@ contains
       self%y = [self%y, spread(0.0_dp, 1, larger - size(self%y))]
    end subroutine make_room
 
-   !> Gives every image the mirrored state of its source.
+   !> Gives every image the mirrored or moved state of its source.
    subroutine fill_images(self, walls, n_own, state)
       type(images_t), intent(in) :: self
       type(walls_t), intent(in) :: walls
       integer, intent(in) :: n_own               !! own slots
       type(state_t), intent(inout) :: state
-      real(dp) :: sign_x(8), sign_y(8), offset_x(8), offset_y(8)
+      type(mapping_t) :: map
       integer :: k, i, j, c
 
-      call mirror_tables(walls, sign_x, sign_y, offset_x, offset_y)
-      !$omp parallel do default(none) shared(self, walls, n_own, state, sign_x, sign_y, offset_x, offset_y) private(i, j, c)
+      if (self%n == 0) return
+      map = mappings(walls)
+      !$omp parallel do default(none) shared(self, walls, n_own, state, map) private(i, j, c)
       do k = 1, self%n
          i = self%source(k)
          j = n_own + k
          c = self%walls(k)
-         state%x(j) = sign_x(c)*state%x(i) + offset_x(c)
-         state%y(j) = sign_y(c)*state%y(i) + offset_y(c)
-         state%u(j) = sign_x(c)*state%u(i)
-         state%v(j) = sign_y(c)*state%v(i)
+         state%x(j) = map%sign_x(c)*state%x(i) + map%offset_x(c)
+         state%y(j) = map%sign_y(c)*state%y(i) + map%offset_y(c)
+         state%u(j) = map%sign_x(c)*state%u(i)
+         state%v(j) = map%sign_y(c)*state%v(i)
          state%s(j) = state%s(i) + walls%density_slope(1)*(state%x(j) - state%x(i)) &
                       + walls%density_slope(2)*(state%y(j) - state%y(i))
          state%w(j) = state%w(i)
@@ -174,53 +193,128 @@ contains
       type(walls_t), intent(in) :: walls
       integer, intent(in) :: n_own
       real(dp), intent(inout) :: grad_x(:), grad_y(:)   !! (n_slots)
-      real(dp) :: sign_x(8), sign_y(8), offset_x(8), offset_y(8)
+      type(mapping_t) :: map
       integer :: k, i, j, c
 
-      call mirror_tables(walls, sign_x, sign_y, offset_x, offset_y)
-      !$omp parallel do default(none) shared(self, walls, n_own, grad_x, grad_y, sign_x, sign_y) private(i, j, c)
+      if (self%n == 0) return
+      map = mappings(walls)
+      !$omp parallel do default(none) shared(self, walls, n_own, grad_x, grad_y, map) private(i, j, c)
       do k = 1, self%n
          i = self%source(k)
          j = n_own + k
          c = self%walls(k)
-         grad_x(j) = sign_x(c)*grad_x(i) + (1 - sign_x(c))*walls%density_slope(1)
-         grad_y(j) = sign_y(c)*grad_y(i) + (1 - sign_y(c))*walls%density_slope(2)
+         grad_x(j) = map%sign_x(c)*grad_x(i) + (1 - map%sign_x(c))*walls%density_slope(1)
+         grad_y(j) = map%sign_y(c)*grad_y(i) + (1 - map%sign_y(c))*walls%density_slope(2)
       end do
       !$omp end parallel do
    end subroutine fill_image_gradients
 
-   ! Mirroring of a coordinate as sign*coordinate + offset, for each combination of walls.
-   pure subroutine mirror_tables(walls, sign_x, sign_y, offset_x, offset_y)
-      type(walls_t), intent(in) :: walls
-      real(dp), intent(out) :: sign_x(8), sign_y(8), offset_x(8), offset_y(8)
-      integer :: c
+   !> Gives every image its source's value of two scalars: alpha_i and delta_i.
+   subroutine fill_image_copies(self, n_own, first, second)
+      type(images_t), intent(in) :: self
+      integer, intent(in) :: n_own
+      real(dp), intent(inout) :: first(:), second(:)   !! (n_slots)
+      integer :: k
 
-      sign_x = 1
-      sign_y = 1
-      offset_x = 0
-      offset_y = 0
-      do c = 1, 8
-         if (vertical(c) > 0) then
-            sign_x(c) = -1
-            offset_x(c) = 2*walls%at(max(1, vertical(c)))
+      !$omp parallel do default(none) shared(self, n_own, first, second)
+      do k = 1, self%n
+         first(n_own + k) = first(self%source(k))
+         second(n_own + k) = second(self%source(k))
+      end do
+      !$omp end parallel do
+   end subroutine fill_image_copies
+
+   !> Gives every image the difference between its no-slip and its free-slip velocity, and its walls' velocity.
+   !!
+   !! Beyond a no-slip wall that moves along itself with speed U the tangential velocity is 2 U - u, not u.
+   subroutine fill_no_slip(self, walls, p)
+      type(images_t), intent(in) :: self
+      type(walls_t), intent(in) :: walls
+      type(particles_t), intent(inout) :: p   !! base state is filled; jump and wall velocities of the images are set
+      integer :: k, j, h, v
+
+      do k = 1, self%n
+         j = p%n_own + k
+         h = horizontal(self%walls(k))
+         v = vertical(self%walls(k))
+         p%jump_u(j) = 0
+         p%jump_v(j) = 0
+         p%wall_u(j) = 0
+         p%wall_v(j) = 0
+         if (h > 0) then
+            if (walls%no_slip(h)) then
+               p%wall_u(j) = walls%speed(h)
+               p%jump_u(j) = 2*(walls%speed(h) - p%base%u(j))
+            end if
          end if
-         if (horizontal(c) > 0) then
-            sign_y(c) = -1
-            offset_y(c) = 2*walls%at(max(1, horizontal(c)))
+         if (v > 0) then
+            if (walls%no_slip(v)) then
+               p%wall_v(j) = walls%speed(v)
+               p%jump_v(j) = 2*(walls%speed(v) - p%base%v(j))
+            end if
          end if
       end do
-   end subroutine mirror_tables
+   end subroutine fill_no_slip
 
-   !> Whether a position is behind a wall.
+   ! How each combination of sides maps a coordinate.
+   pure type(mapping_t) function mappings(walls) result(map)
+      type(walls_t), intent(in) :: walls
+      integer :: c
+
+      do c = 1, size(vertical)
+         call map_side(walls, vertical(c), walls%periodic(1), map%sign_x(c), map%offset_x(c))
+         call map_side(walls, horizontal(c), walls%periodic(2), map%sign_y(c), map%offset_y(c))
+      end do
+   end function mappings
+
+   pure subroutine map_side(walls, side, periodic, sign, offset)
+      type(walls_t), intent(in) :: walls
+      integer, intent(in) :: side
+      logical, intent(in) :: periodic
+      real(dp), intent(out) :: sign, offset
+      integer :: other
+
+      sign = 1
+      offset = 0
+      if (side == 0) return
+      if (periodic) then
+         ! From the left side to beyond the right one, and so on.
+         other = side + 1
+         if (side == right_wall .or. side == top_wall) other = side - 1
+         offset = walls%at(other) - walls%at(side)
+      else
+         sign = -1
+         offset = 2*walls%at(side)
+      end if
+   end subroutine map_side
+
+   !> Whether a position is behind a wall or beyond a periodic side.
    elemental logical function outside(walls, x, y)
       type(walls_t), intent(in) :: walls
       real(dp), intent(in) :: x, y
 
-      outside = (walls%present(left_wall) .and. x < walls%at(left_wall)) &
-                .or. (walls%present(right_wall) .and. x > walls%at(right_wall)) &
-                .or. (walls%present(bottom_wall) .and. y < walls%at(bottom_wall)) &
-                .or. (walls%present(top_wall) .and. y > walls%at(top_wall))
+      outside = ((walls%present(left_wall) .or. walls%periodic(1)) .and. x < walls%at(left_wall)) &
+                .or. ((walls%present(right_wall) .or. walls%periodic(1)) .and. x > walls%at(right_wall)) &
+                .or. ((walls%present(bottom_wall) .or. walls%periodic(2)) .and. y < walls%at(bottom_wall)) &
+                .or. ((walls%present(top_wall) .or. walls%periodic(2)) .and. y > walls%at(top_wall))
    end function outside
+
+   !> Moves a particle that left through a periodic side back into the box, by whole periods.
+   pure subroutine wrap(walls, x, y)
+      type(walls_t), intent(in) :: walls
+      real(dp), intent(inout) :: x, y
+
+      if (walls%periodic(1)) call wrap_one(walls%at(left_wall), walls%at(right_wall), x)
+      if (walls%periodic(2)) call wrap_one(walls%at(bottom_wall), walls%at(top_wall), y)
+   end subroutine wrap
+
+   ! A coordinate inside keeps all its bits.
+   pure subroutine wrap_one(lower, upper, coordinate)
+      real(dp), intent(in) :: lower, upper
+      real(dp), intent(inout) :: coordinate
+
+      if (coordinate < lower .or. coordinate > upper) coordinate = lower + modulo(coordinate - lower, upper - lower)
+   end subroutine wrap_one
 
    !> Puts a particle that crossed a wall back inside, its normal velocity pointing inwards.
    !!

@@ -84,6 +84,7 @@ contains
       integer :: i, old
 
       call reserve_slots(p, self%strips%n_slots)
+      if (p%features%dissipation) call permute_dissipated(self, p)
       p%n_own = self%strips%n_slots
       p%n_slots = p%n_own
       !$omp parallel do default(none) shared(self, p) private(old)
@@ -118,6 +119,22 @@ contains
       call move_alloc(p%sorted_id, p%id)
       call move_alloc(spare_id, p%sorted_id)
    end subroutine permute
+
+   subroutine permute_dissipated(self, p)
+      type(neighbours_t), intent(in) :: self
+      type(particles_t), intent(inout) :: p
+      real(dp), allocatable :: spare(:)
+      integer :: i, old
+
+      do i = 1, self%strips%n_slots
+         old = self%strips%point_of(i)
+         p%dissipating(i) = 0
+         if (old > 0) p%dissipating(i) = p%dissipated(old)
+      end do
+      call move_alloc(p%dissipated, spare)
+      call move_alloc(p%dissipating, p%dissipated)
+      call move_alloc(spare, p%dissipating)
+   end subroutine permute_dissipated
 
    ! Positions and velocities of each cluster, velocities of each strip and of all.
    subroutine measure_clusters(self, p)

@@ -8,7 +8,7 @@ module particles
    implicit none
    private
 
-   public :: state_t, particles_t, allocate_particles, reserve_slots, bytes_per_slot
+   public :: state_t, features_t, particles_t, allocate_particles, reserve_slots, bytes_per_slot
 
    real(dp), parameter, public :: far_away = 1.0e30_dp   !! where dummies are, in any unit of length
 
@@ -20,8 +20,16 @@ module particles
       real(dp), allocatable :: w(:)         !! (n_slots) volume m/rho (area in two dimensions)
    end type state_t
 
+   !> What particles carry only where a scene needs it.
+   type :: features_t
+      logical :: eddy = .false.          !! alpha_i and delta_i of the dynamic model
+      logical :: no_slip = .false.       !! velocities of images at no-slip walls
+      logical :: dissipation = .false.   !! dissipated energy of each particle
+   end type features_t
+
    !> All particles of this process.
    type :: particles_t
+      type(features_t) :: features
       integer :: n = 0          !! real particles
       integer :: n_own = 0      !! own slots, padding included: a multiple of nl
       integer :: n_slots = 0    !! own slots and images
@@ -36,16 +44,23 @@ module particles
       real(dp), allocatable :: visc_x(:), visc_y(:)   !! (n_slots) frozen viscous acceleration
       real(dp), allocatable :: diff_s(:)          !! (n_slots) frozen density-diffusion rate
       real(dp), allocatable :: grad_x(:), grad_y(:)   !! (n_slots) G, renormalised gradient of rho
+      real(dp), allocatable :: alpha(:), delta(:)     !! (n_slots) alpha_i, delta_i; no-slip walls need alpha, if only 0
+      real(dp), allocatable :: jump_u(:), jump_v(:)   !! (n_slots) no-slip less free-slip velocity of an image
+      real(dp), allocatable :: wall_u(:), wall_v(:)   !! (n_slots) velocity of an image's no-slip wall
+      real(dp), allocatable :: dissipated(:)          !! (n_slots) energy, since the start
+      real(dp), allocatable :: dissipating(:)         !! (n_slots) power; scratch of the sort
    end type particles_t
 
 contains
 
    !> Room for n particles and a first guess of padding and images; every slot a dummy.
-   subroutine allocate_particles(self, n)
+   subroutine allocate_particles(self, n, features)
       type(particles_t), intent(out) :: self
       integer, intent(in) :: n   !! real particles
+      type(features_t), intent(in), optional :: features   !! none if left out
 
       self%n = n
+      if (present(features)) self%features = features
       call reserve_slots(self, n + n/20 + 64*nl)
    end subroutine allocate_particles
 
@@ -70,14 +85,34 @@ contains
       call grow(self%diff_s, capacity, 0.0_dp)
       call grow(self%grad_x, capacity, 0.0_dp)
       call grow(self%grad_y, capacity, 0.0_dp)
+      associate (features => self%features)
+         if (features%eddy .or. features%no_slip) call grow(self%alpha, capacity, 0.0_dp)
+         if (features%eddy) call grow(self%delta, capacity, 0.0_dp)
+         if (features%no_slip) then
+            call grow(self%jump_u, capacity, 0.0_dp)
+            call grow(self%jump_v, capacity, 0.0_dp)
+            call grow(self%wall_u, capacity, 0.0_dp)
+            call grow(self%wall_v, capacity, 0.0_dp)
+         end if
+         if (features%dissipation) then
+            call grow(self%dissipated, capacity, 0.0_dp)
+            call grow(self%dissipating, capacity, 0.0_dp)
+         end if
+      end associate
       call grow_integer(self%id, capacity)
       call grow_integer(self%sorted_id, capacity)
       self%capacity = capacity
    end subroutine reserve_slots
 
    !> Bytes that a slot takes in the arrays above.
-   pure integer function bytes_per_slot()
+   pure integer function bytes_per_slot(features)
+      type(features_t), intent(in) :: features
+
       bytes_per_slot = 8*(4*6 + 7) + 2*4
+      if (features%eddy .or. features%no_slip) bytes_per_slot = bytes_per_slot + 8
+      if (features%eddy) bytes_per_slot = bytes_per_slot + 8
+      if (features%no_slip) bytes_per_slot = bytes_per_slot + 4*8
+      if (features%dissipation) bytes_per_slot = bytes_per_slot + 2*8
    end function bytes_per_slot
 
    subroutine grow_state(state, capacity)

@@ -9,14 +9,11 @@ module diffusion
    use lanes, only: nl
    use model, only: model_t
    use particles, only: particles_t
+   use renormalisation, only: renormalisation_t, renormalise
    implicit none
    private
 
    public :: freeze_viscosity, freeze_gradient, freeze_density_diffusion
-
-   !> Smallest eigenvalue of L**-1 (1 inside the fluid) below which no gradient is formed: isolated and
-   !! aligned particles have none.
-   real(dp), parameter, public :: singular_below = 0.05_dp
 
 contains
 
@@ -41,22 +38,16 @@ contains
       type(particles_t), intent(inout) :: p   !! grad_x, grad_y and diff_s of the cluster are set
       integer, intent(in) :: i0               !! slot before the cluster's first
       integer, intent(out) :: singular        !! particles whose L**-1 could not be inverted
-      real(dp), dimension(nl) :: xx, xy, yy, determinant, smallest
-      logical :: regular(nl)
+      type(renormalisation_t) :: l
 
       associate (f => model%kernel%gradient_factor, gx => p%grad_x(i0 + 1:i0 + nl), &
                  gy => p%grad_y(i0 + 1:i0 + nl), diff_s => p%diff_s(i0 + 1:i0 + nl))
-         xx = f*sums%matrix_xx
-         xy = f*sums%matrix_xy
-         yy = f*sums%matrix_yy
-         smallest = (xx + yy)/2 - sqrt((xx - yy)**2/4 + xy**2)
-         regular = smallest > singular_below
-         determinant = merge(xx*yy - xy**2, 1.0_dp, regular)
-         gx = merge(f*(yy*sums%density_x - xy*sums%density_y)/determinant, 0.0_dp, regular)
-         gy = merge(f*(xx*sums%density_y - xy*sums%density_x)/determinant, 0.0_dp, regular)
+         l = renormalise(f, sums%matrix_xx, sums%matrix_xy, sums%matrix_yy)
+         gx = f*(l%xx*sums%density_x + l%xy*sums%density_y)
+         gy = f*(l%xy*sums%density_x + l%yy*sums%density_y)
          diff_s = 2*sums%density_0 - gx*sums%kernel_x - gy*sums%kernel_y
       end associate
-      singular = count(p%id(i0 + 1:i0 + nl) > 0 .and. .not. regular)
+      singular = count(p%id(i0 + 1:i0 + nl) > 0 .and. .not. l%regular)
    end subroutine freeze_gradient
 
    !> The density-diffusion rate: closes `diff_s` with the sum over the neighbours' gradients.

@@ -10,10 +10,16 @@ module flow
    use lanes, only: nl
    use model, only: model_t
    use particles, only: state_t
+   use strain_sums, only: strain_sums_t
    implicit none
    private
 
    public :: rates_t, flow_rates, as_flow_sums
+
+   !> The flow sums contained in a first stage's sums.
+   interface as_flow_sums
+      procedure :: from_gradient_sums, from_strain_sums
+   end interface as_flow_sums
 
    !> Rates of a cluster; gravity is kept apart because its work is the potential energy's.
    type :: rates_t
@@ -39,16 +45,34 @@ contains
       rates%s = -rho*model%kernel%gradient_factor*sums%divergence
    end subroutine flow_rates
 
-   !> The flow sums contained in a first stage's sums:
-   !! sum_j (s_i + s_j) grad W V = sum_j (s_j - s_i) grad W V + 2 s_i sum_j grad W V.
-   pure type(flow_sums_t) function as_flow_sums(sums, state, i0) result(flow)
+   !> The flow sums contained in a first stage's sums of the constant model.
+   pure type(flow_sums_t) function from_gradient_sums(sums, state, i0) result(flow)
       type(gradient_sums_t), intent(in) :: sums
       type(state_t), intent(in) :: state
       integer, intent(in) :: i0
 
       flow%divergence = sums%divergence
-      flow%force_x = sums%density_x + 2*state%s(i0 + 1:i0 + nl)*sums%kernel_x
-      flow%force_y = sums%density_y + 2*state%s(i0 + 1:i0 + nl)*sums%kernel_y
-   end function as_flow_sums
+      call both_pressures(state%s(i0 + 1:i0 + nl), sums%density_x, sums%kernel_x, flow%force_x)
+      call both_pressures(state%s(i0 + 1:i0 + nl), sums%density_y, sums%kernel_y, flow%force_y)
+   end function from_gradient_sums
+
+   !> The same of the dynamic model.
+   pure type(flow_sums_t) function from_strain_sums(sums, state, i0) result(flow)
+      type(strain_sums_t), intent(in) :: sums
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: i0
+
+      flow%divergence = sums%u_x + sums%v_y
+      call both_pressures(state%s(i0 + 1:i0 + nl), sums%density_x, sums%kernel_x, flow%force_x)
+      call both_pressures(state%s(i0 + 1:i0 + nl), sums%density_y, sums%kernel_y, flow%force_y)
+   end function from_strain_sums
+
+   ! sum_j (s_i + s_j) grad W V = sum_j (s_j - s_i) grad W V + 2 s_i sum_j grad W V.
+   elemental subroutine both_pressures(s, difference, kernel, total)
+      real(dp), intent(in) :: s, difference, kernel
+      real(dp), intent(out) :: total
+
+      total = difference + 2*s*kernel
+   end subroutine both_pressures
 
 end module flow

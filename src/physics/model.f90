@@ -3,6 +3,7 @@ module model
    use images, only: walls_t
    use kernel, only: kernel_t
    use kinds, only: dp
+   use linear_stability, only: largest_cfl
    implicit none
    private
 
@@ -30,18 +31,39 @@ module model
       real(dp) :: cfl = 0             !! Courant number of eq. 8
    contains
       procedure :: step_limit
+      procedure :: advective_limit
+      procedure :: longest_step
       procedure :: has_force
    end type model_t
 
 contains
 
-   !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8.
-   pure real(dp) function step_limit(self, largest_pi)
+   !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8, and no more than is linearly stable with the diffusive coefficients.
+   !!
+   !! The paper leaves out the second limit; for viscosity it is dt <= 0.1165 h**2/nu (module linear_stability).
+   pure real(dp) function step_limit(self, largest_pi, largest_alpha, largest_delta)
       class(model_t), intent(in) :: self
-      real(dp), intent(in) :: largest_pi   !! over all pairs
+      real(dp), intent(in) :: largest_pi      !! over all pairs
+      real(dp), intent(in) :: largest_alpha   !! largest alpha_i + alpha
+      real(dp), intent(in) :: largest_delta   !! largest delta_i, or delta
 
-      step_limit = self%cfl*self%kernel%h/(self%c0 + self%kernel%h*largest_pi)
+      step_limit = min(self%advective_limit(largest_pi), largest_cfl(largest_delta, largest_alpha)*self%kernel%h/self%c0)
    end function step_limit
+
+   !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8.
+   pure real(dp) function advective_limit(self, largest_pi)
+      class(model_t), intent(in) :: self
+      real(dp), intent(in) :: largest_pi
+
+      advective_limit = self%cfl*self%kernel%h/(self%c0 + self%kernel%h*largest_pi)
+   end function advective_limit
+
+   !> The longest step that the scene can take: without velocities.
+   pure real(dp) function longest_step(self)
+      class(model_t), intent(in) :: self
+
+      longest_step = self%step_limit(0.0_dp, self%alpha, self%delta)
+   end function longest_step
 
    !> Whether a uniform force acts besides gravity.
    pure logical function has_force(self)

@@ -10,6 +10,7 @@ module report
    use particles, only: bytes_per_slot
    use progress, only: duration_text
    use run_log, only: log_t
+   use scene_setup, only: needed_features
    use settings, only: settings_t
    use summary, only: summary_t
    use text, only: short, to_text
@@ -46,12 +47,12 @@ contains
       integer, intent(in) :: particles
 
       cost%particles = particles
-      cost%dt = model%step_limit(0.0_dp)
+      cost%dt = model%longest_step()
       cost%steps = scene%time%end_time/(typical_step_share*cost%dt)
       if (scene%time%max_steps > 0) cost%steps = min(cost%steps, real(scene%time%max_steps, dp))
       cost%seconds = cost%steps*particles*typical_ns*1.0e-9_dp/omp_get_max_threads()
       ! Slots of padding and images, neighbour ranges and sorting besides the particles' own.
-      cost%bytes = particles*(1.25_dp*bytes_per_slot() + 60)
+      cost%bytes = particles*(1.25_dp*bytes_per_slot(needed_features(scene)) + 60)
    end function estimate
 
    !> The box that a run starts with, and all that --check prints.

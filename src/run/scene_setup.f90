@@ -5,12 +5,12 @@ module scene_setup
    use kernel, only: new_kernel
    use kinds, only: dp
    use model, only: model_t
-   use particles, only: allocate_particles, particles_t
+   use particles, only: allocate_particles, features_t, particles_t
    use settings, only: body_settings, is_wall, settings_t
    implicit none
    private
 
-   public :: set_up_model, set_up_particles, count_particles
+   public :: set_up_model, set_up_particles, count_particles, needed_features
 
 contains
 
@@ -73,6 +73,17 @@ contains
       end associate
    end function set_up_walls
 
+   !> What the scene's particles carry.
+   pure type(features_t) function needed_features(scene) result(features)
+      type(settings_t), intent(in) :: scene
+
+      associate (domain => scene%domain, output => scene%output)
+         features%eddy = scene%model%diffusion == 'dynamic'
+         features%no_slip = any([domain%left, domain%right, domain%bottom, domain%top] == 'no_slip')
+         features%dissipation = any(output%fields(:output%n_fields) == 'dissipation')
+      end associate
+   end function needed_features
+
    !> Columns and rows of particles in a body: spacing is dx, stretched to fill the body exactly.
    pure function lattice(body, dx) result(n)
       type(body_settings), intent(in) :: body
@@ -103,7 +114,7 @@ contains
       integer :: k, i, j, n(2), slot
       real(dp) :: cell(2), position(2)
 
-      call allocate_particles(p, count_particles(scene))
+      call allocate_particles(p, count_particles(scene), needed_features(scene))
       slot = 0
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k))

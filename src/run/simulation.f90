@@ -165,7 +165,7 @@ contains
 
       if (run%scattered) return
       if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
-      if (run%dt < least_step_share*model%step_limit(0.0_dp) .and. run%time < scene%time%end_time) &
+      if (run%dt < least_step_share*model%longest_step() .and. run%time < scene%time%end_time) &
          call problem%raise(exit_numerics, 'step '//to_text(run%step)//' at t = '//short(run%time)//' is only '//short(run%dt) &
                             //' long: two particles close on each other too fast; a smaller cfl may help')
    end subroutine check_step

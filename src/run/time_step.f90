@@ -6,15 +6,20 @@
 module time_step
    use diffusion, only: freeze_density_diffusion, freeze_gradient, freeze_viscosity
    use diffusion_sums, only: sum_diffusion
+   use dissipation_sums, only: sum_dissipation
+   use eddy, only: freeze_coefficients, freeze_eddy_terms
+   use eddy_sums, only: eddy_sums_t, sum_eddy
    use flow, only: as_flow_sums, flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use gradient_sums, only: gradient_sums_t, sum_gradients
-   use images, only: fill_image_gradients, fill_images, outside, reflect
+   use images, only: fill_image_copies, fill_image_gradients, fill_images, fill_no_slip, outside, reflect, wrap
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: list_ranges, neighbours_t, sort_particles
+   use no_slip, only: add_friction, add_wall_shear
    use particles, only: particles_t, state_t
+   use strain_sums, only: strain_sums_t, sum_strain
    use timers, only: timers_t
    implicit none
    private
@@ -35,6 +40,7 @@ module time_step
       integer :: step = 0                   !! steps done
       integer(i8) :: crossings = 0          !! particles put back behind a wall
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
+      integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
       integer(i8) :: repeated = 0           !! steps repeated with a larger search margin
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
@@ -56,11 +62,14 @@ module time_step
 
    !> Sums and extremes of a block of clusters.
    type :: block_t
-      real(dp) :: work(3) = 0        !! alpha, delta, walls
+      real(dp) :: work(4) = 0        !! alpha, delta, walls, uniform force
+      real(dp) :: wall_power = 0     !! of no-slip walls that move
       real(dp) :: speed_2 = 0        !! max |u|**2
       real(dp) :: pressure = 0       !! max p/rho
       real(dp) :: largest_s = 0
       real(dp) :: largest_pi = 0
+      real(dp) :: largest_alpha = 0  !! alpha_i and delta_i of the dynamic model
+      real(dp) :: largest_delta = 0
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0
@@ -81,7 +90,7 @@ contains
       call timers%start(phase_sort)
       near%slack = max(0.02_dp*model%dx, 2*near%stray)
       expected = run%dt
-      if (run%step == 0) expected = model%step_limit(0.0_dp)
+      if (run%step == 0) expected = model%longest_step()
       call find_neighbours(model, p, near, run, expected)
       call timers%stop(phase_sort)
    end subroutine refresh
@@ -107,14 +116,12 @@ contains
       real(dp), intent(in) :: last_time
       type(timers_t), intent(inout) :: timers
       type(block_t), allocatable :: blocks(:)
-      real(dp) :: largest_pi
       logical :: strayed
 
       do
          allocate (blocks((near%n_clusters + block_clusters - 1)/block_clusters))
          call first_sums(model, p, near, blocks, timers)
-         largest_pi = maxval(blocks%largest_pi)
-         run%dt = min(model%step_limit(largest_pi), last_time - run%time)
+         run%dt = min(stable_step(model, blocks), last_time - run%time)
          if (run%dt - near%tau <= near%image_travel) then
             call stages(model, p, near, run%dt, blocks, timers, strayed)
             if (.not. strayed) exit
@@ -126,10 +133,21 @@ contains
          call sort_again(model, p, near, run, timers)
          if (run%scattered) return
       end do
-      call collect(model, run, blocks)
+      call collect(model, run, last_time, blocks)
+      if (p%features%dissipation) &
+         p%dissipated(1:p%n_own) = p%dissipated(1:p%n_own) + run%dt*p%dissipating(1:p%n_own)
       run%step = run%step + 1
       run%time = run%time + run%dt
    end subroutine advance
+
+   ! The step of eq. 8 and the diffusive limits.
+   pure real(dp) function stable_step(model, blocks)
+      type(model_t), intent(in) :: model
+      type(block_t), intent(in) :: blocks(:)
+
+      stable_step = model%step_limit(maxval(blocks%largest_pi), model%alpha + maxval(blocks%largest_alpha), &
+                                     max(model%delta, maxval(blocks%largest_delta)))
+   end function stable_step
 
    ! Sorts the unchanged base state again, for the step that is known now.
    subroutine sort_again(model, p, near, run, timers)
@@ -145,42 +163,90 @@ contains
       call timers%stop(phase_sort)
    end subroutine sort_again
 
-   ! L, grad rho, the frozen terms and the first stage's rates, which `next` keeps until they are used.
+   ! L, grad rho and the first stage's rates, which `next` keeps until they are used; of the frozen terms what needs no
+   ! gradient and no coefficient of a neighbour.
    subroutine first_sums(model, p, near, blocks, timers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
       type(block_t), intent(inout) :: blocks(:)
       type(timers_t), intent(inout) :: timers
-      type(gradient_sums_t) :: sums
-      type(rates_t) :: rates
-      logical :: with_diffusion
-      integer :: b, c, i0, singular
+      integer :: b, c
 
       call timers%start(phase_gradients)
-      with_diffusion = model%delta > 0
-      !$omp parallel do default(none) shared(model, p, near, blocks, with_diffusion) &
-      !$omp private(c, i0, sums, rates, singular) schedule(dynamic)
+      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+      !$omp parallel do default(none) shared(model, p, near, blocks) private(c) schedule(dynamic)
       do b = 1, size(blocks)
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            i0 = (c - 1)*nl
-            call sum_gradients(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
-            call flow_rates(model, p%base, i0, as_flow_sums(sums, p%base, i0), rates)
-            p%next%u(i0 + 1:i0 + nl) = rates%u
-            p%next%v(i0 + 1:i0 + nl) = rates%v
-            p%next%s(i0 + 1:i0 + nl) = rates%s
-            call freeze_viscosity(model, sums, p, i0)
-            if (with_diffusion) then
-               call freeze_gradient(model, sums, p, i0, singular)
-               blocks(b)%singular = blocks(b)%singular + singular
+            if (model%dynamic) then
+               call first_sums_dynamic(model, p, near, c, blocks(b))
+            else
+               call first_sums_constant(model, p, near, c, blocks(b))
             end if
-            blocks(b)%largest_pi = max(blocks(b)%largest_pi, maxval(sums%largest_pi))
          end do
       end do
       !$omp end parallel do
-      if (with_diffusion) call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
+      if (model%dynamic .or. model%delta > 0) &
+         call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
+      if (model%dynamic) call fill_image_copies(near%images, p%n_own, p%alpha, p%delta)
       call timers%stop(phase_gradients)
    end subroutine first_sums
+
+   ! Of a cluster, with constant coefficients.
+   subroutine first_sums_constant(model, p, near, c, block)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: c
+      type(block_t), intent(inout) :: block
+      type(gradient_sums_t) :: sums
+      type(rates_t) :: rates
+      integer :: i0, singular
+
+      i0 = (c - 1)*nl
+      call sum_gradients(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
+      call flow_rates(model, p%base, i0, as_flow_sums(sums, p%base, i0), rates)
+      call keep_rates(p, i0, rates)
+      call freeze_viscosity(model, sums, p, i0)
+      if (model%delta > 0) then
+         call freeze_gradient(model, sums, p, i0, singular)
+         block%singular = block%singular + singular
+      end if
+      block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi))
+   end subroutine first_sums_constant
+
+   ! Of a cluster, with the dynamic model.
+   subroutine first_sums_dynamic(model, p, near, c, block)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: c
+      type(block_t), intent(inout) :: block
+      type(strain_sums_t) :: sums
+      type(rates_t) :: rates
+      integer :: i0, singular
+
+      i0 = (c - 1)*nl
+      call sum_strain(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
+      call flow_rates(model, p%base, i0, as_flow_sums(sums, p%base, i0), rates)
+      call keep_rates(p, i0, rates)
+      if (p%features%no_slip) call add_wall_shear(model, near%ranges(c), p, i0, sums)
+      call freeze_coefficients(model, sums, p, i0, singular)
+      block%singular = block%singular + singular
+      block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi))
+      block%largest_alpha = max(block%largest_alpha, maxval(p%alpha(i0 + 1:i0 + nl)))
+      block%largest_delta = max(block%largest_delta, maxval(p%delta(i0 + 1:i0 + nl)))
+   end subroutine first_sums_dynamic
+
+   pure subroutine keep_rates(p, i0, rates)
+      type(particles_t), intent(inout) :: p
+      integer, intent(in) :: i0
+      type(rates_t), intent(in) :: rates
+
+      p%next%u(i0 + 1:i0 + nl) = rates%u
+      p%next%v(i0 + 1:i0 + nl) = rates%v
+      p%next%s(i0 + 1:i0 + nl) = rates%s
+   end subroutine keep_rates
 
    ! The four stages; `strayed` if the neighbour ranges turned out too small and the result is void.
    subroutine stages(model, p, near, dt, blocks, timers, strayed)
@@ -213,34 +279,50 @@ contains
       if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
    end subroutine stages
 
-   ! Completes the frozen density diffusion and goes from `base` to the second stage's state.
+   ! Completes the frozen terms and goes from `base` to the second stage's state.
    subroutine first_stage(model, p, near, dt, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: dt
       type(block_t), intent(inout) :: blocks(:)
-      real(dp) :: neighbour_gradient(nl)
       type(rates_t) :: rates
-      logical :: with_diffusion
       integer :: b, c, i0
 
-      with_diffusion = model%delta > 0
-      !$omp parallel do default(none) shared(model, p, near, dt, blocks, with_diffusion) &
-      !$omp private(c, i0, neighbour_gradient, rates) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, dt, blocks) private(c, i0, rates) schedule(dynamic)
       do b = 1, size(blocks)
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
             i0 = (c - 1)*nl
-            if (with_diffusion) then
-               call sum_diffusion(model%kernel, near%ranges(c), p, i0, neighbour_gradient)
-               call freeze_density_diffusion(model, neighbour_gradient, p, i0)
-            end if
+            call complete_frozen_terms(model, p, near, c, blocks(b))
             rates = rates_t(p%next%u(i0 + 1:i0 + nl), p%next%v(i0 + 1:i0 + nl), p%next%s(i0 + 1:i0 + nl))
             call update_cluster(model, p, i0, 1, dt, rates, blocks(b))
          end do
       end do
       !$omp end parallel do
    end subroutine first_stage
+
+   ! What the frozen terms need of the neighbours' gradients and coefficients.
+   subroutine complete_frozen_terms(model, p, near, c, block)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: c
+      type(block_t), intent(inout) :: block
+      real(dp) :: neighbour_gradient(nl)
+      type(eddy_sums_t) :: eddy
+      integer :: i0
+
+      i0 = (c - 1)*nl
+      if (model%dynamic) then
+         call sum_eddy(model%kernel, near%ranges(c), p, model%alpha, i0, eddy)
+         call freeze_eddy_terms(model, eddy, p, i0)
+      else if (model%delta > 0) then
+         call sum_diffusion(model%kernel, near%ranges(c), p, i0, neighbour_gradient)
+         call freeze_density_diffusion(model, neighbour_gradient, p, i0)
+      end if
+      if (p%features%no_slip) call add_friction(model, near%ranges(c), p, i0, block%wall_power)
+      if (p%features%dissipation) call sum_dissipation(model, near%ranges(c), p, i0, p%dissipating(i0 + 1:i0 + nl))
+   end subroutine complete_frozen_terms
 
    ! Evaluates the rates at a stage's state and forms the next stage's, or the end of the step.
    subroutine later_stage(model, p, near, stage, dt, blocks)
@@ -294,6 +376,12 @@ contains
          full%u = rates%u + visc_x
          full%v = rates%v + visc_y - model%gravity
          full%s = rates%s + diff_s
+         if (model%central_rate > 0) call add_central_force(model, p, i0, stage, full)
+         if (model%has_force()) then
+            full%u = full%u + model%acceleration(1)
+            full%v = full%v + model%acceleration(2)
+            sums%work(4) = sums%work(4) + weight*sum(m*(now%u*model%acceleration(1) + now%v*model%acceleration(2)))
+         end if
          ! p V/rho = m p/rho**2 is the derivative of the elastic energy by rho, eq. 11
          pressure = model%c0**2*now%s/(model%rho0 + now%s)*now%w
          sums%work(1) = sums%work(1) + weight*sum(m*(now%u*visc_x + now%v*visc_y))
@@ -310,6 +398,27 @@ contains
          end associate
       end if
    end subroutine update_cluster
+
+   ! -w**2 (r - centre); nothing for dummies, which are far away.
+   pure subroutine add_central_force(model, p, i0, stage, rates)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: i0, stage
+      type(rates_t), intent(inout) :: rates
+      real(dp), dimension(nl) :: x, y
+
+      if (stage == 1) then
+         x = p%base%x(i0 + 1:i0 + nl)
+         y = p%base%y(i0 + 1:i0 + nl)
+      else
+         x = p%stage(stage_state(stage))%x(i0 + 1:i0 + nl)
+         y = p%stage(stage_state(stage))%y(i0 + 1:i0 + nl)
+      end if
+      associate (m => p%m(i0 + 1:i0 + nl))
+         rates%u = rates%u - model%central_rate**2*merge(x - model%centre(1), 0.0_dp, m > 0)
+         rates%v = rates%v - model%central_rate**2*merge(y - model%centre(2), 0.0_dp, m > 0)
+      end associate
+   end subroutine add_central_force
 
    ! A cluster's part of a state that the rates were taken at.
    pure type(lanes_t) function lanes_of(state, i0) result(lanes)
@@ -381,6 +490,7 @@ contains
                if (p%id(i) == 0) cycle
                call reflect(model%walls, model%gravity, p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
                if (crossed) sums%crossings = sums%crossings + 1
+               if (any(model%walls%periodic)) call wrap(model%walls, p%next%x(i), p%next%y(i))
             end do
          end if
          p%next%w(i0 + 1:i0 + nl) = m/(model%rho0 + s)
@@ -396,14 +506,20 @@ contains
    end subroutine finish_cluster
 
    ! Sums over the blocks in their order, so that the result does not depend on the number of threads.
-   subroutine collect(model, run, blocks)
+   subroutine collect(model, run, last_time, blocks)
       type(model_t), intent(in) :: model
       type(step_t), intent(inout) :: run
+      real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
+      real(dp) :: moving_walls
 
-      run%work_alpha = run%work_alpha + sum(blocks%work(1))
+      if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
+         run%limited = run%limited + 1
+      moving_walls = run%dt*sum(blocks%wall_power)
+      run%work_alpha = run%work_alpha + sum(blocks%work(1)) - moving_walls
       run%work_delta = run%work_delta + sum(blocks%work(2))
-      run%work_walls = run%work_walls + sum(blocks%work(3))
+      run%work_walls = run%work_walls + sum(blocks%work(3)) + moving_walls
+      run%work_force = run%work_force + sum(blocks%work(4))
       run%crossings = run%crossings + sum(blocks%crossings)
       run%singular = run%singular + sum(blocks%singular)
       run%speed = sqrt(maxval(blocks%speed_2))

@@ -1,0 +1,111 @@
+!> Pair sums of a step's first stage with the dynamic model, for one cluster of particles: everything that needs no
+!! gradient and no coefficient of a neighbour.
+!!
+!! Source: eqs. 5, 6, 8 and 20. As module `gradient_sums`, but with the velocity gradient instead of the
+!! viscous sum, whose coefficients are not known yet.
+module strain_sums
+   use kinds, only: dp
+   use kernel, only: kernel_t, root
+   use lanes, only: nl
+   use particles, only: state_t
+   use strips, only: ranges_t
+   implicit none
+   private
+
+   public :: strain_sums_t, sum_strain
+
+   !> The sums of a cluster, without the kernel's constant factor F = factor t**3.
+   type :: strain_sums_t
+      real(dp) :: u_x(nl)          !! sum_j u_ji x_ji t**3 V_j, and so on: the velocity gradient before L
+      real(dp) :: u_y(nl)
+      real(dp) :: v_x(nl)
+      real(dp) :: v_y(nl)
+      real(dp) :: matrix_xx(nl)    !! sum_j x_ji x_ji t**3 V_j, and so on: L**-1
+      real(dp) :: matrix_xy(nl)
+      real(dp) :: matrix_yy(nl)
+      real(dp) :: density_x(nl)    !! sum_j (s_j - s_i) x_ji t**3 V_j
+      real(dp) :: density_y(nl)
+      real(dp) :: kernel_x(nl)     !! sum_j x_ji t**3 V_j: the sum of grad W
+      real(dp) :: kernel_y(nl)
+      real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, the particle's own images left out
+   end type strain_sums_t
+
+contains
+
+   !> Sums over all slots in the cluster's ranges; the lanes of the inner loop are the cluster's particles.
+   pure subroutine sum_strain(kernel, ranges, state, owner, i0, sums)
+      type(kernel_t), intent(in) :: kernel
+      type(ranges_t), intent(in) :: ranges    !! slots to visit
+      type(state_t), intent(in) :: state      !! of all slots
+      real(dp), intent(in), contiguous :: owner(:)   !! (n_slots) slot of the particle, or of the image's source
+      integer, intent(in) :: i0               !! slot before the cluster's first
+      type(strain_sums_t), intent(out) :: sums
+
+      call lane_loop(ranges%n, ranges%first, ranges%last, size(state%x), state%x, state%y, state%u, state%v, &
+                     state%s, state%w, owner, i0, kernel%inverse_support, sums)
+   end subroutine sum_strain
+
+   ! Explicit shapes and accumulators of fixed length keep the sums in vector registers.
+   pure subroutine lane_loop(n_ranges, first, last, n, x, y, u, v, s, w, owner, i0, inverse_support, sums)
+      integer, intent(in) :: n_ranges, first(n_ranges), last(n_ranges), n, i0
+      real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), owner(n), inverse_support
+      type(strain_sums_t), intent(out) :: sums
+      real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
+      real(dp), dimension(nl) :: ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, pi_max
+      real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other
+      integer :: k, j, l
+
+      xi = x(i0 + 1:i0 + nl)
+      yi = y(i0 + 1:i0 + nl)
+      ui = u(i0 + 1:i0 + nl)
+      vi = v(i0 + 1:i0 + nl)
+      si = s(i0 + 1:i0 + nl)
+      oi = owner(i0 + 1:i0 + nl)
+      ux = 0
+      uy = 0
+      vx = 0
+      vy = 0
+      mxx = 0
+      mxy = 0
+      myy = 0
+      bx = 0
+      by = 0
+      kx = 0
+      ky = 0
+      pi_max = 0
+      do k = 1, n_ranges
+         do j = first(k), last(k)
+            !$omp simd private(dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other)
+            do l = 1, nl
+               dx = x(j) - xi(l)
+               dy = y(j) - yi(l)
+               call root(dx*dx + (dy*dy + tiny(1.0_dp)), r, inverse)
+               t = max(0.0_dp, 1 - inverse_support*r)
+               g = t*t*(t*w(j))
+               gx = g*dx
+               gy = g*dy
+               mxx(l) = mxx(l) + gx*dx
+               mxy(l) = mxy(l) + gx*dy
+               myy(l) = myy(l) + gy*dy
+               kx(l) = kx(l) + gx
+               ky(l) = ky(l) + gy
+               ds = s(j) - si(l)
+               bx(l) = bx(l) + ds*gx
+               by(l) = by(l) + ds*gy
+               du = u(j) - ui(l)
+               dv = v(j) - vi(l)
+               ux(l) = ux(l) + du*gx
+               uy(l) = uy(l) + du*gy
+               vx(l) = vx(l) + dv*gx
+               vy(l) = vy(l) + dv*gy
+               pi_ij = (du*dx + dv*dy)*(inverse*inverse)
+               ! 1 for another particle within the support, else 0, without a branch: with one, nothing here is vectorised.
+               other = min(1.0_dp, huge(1.0_dp)*min(t, abs(owner(j) - oi(l))))
+               pi_max(l) = max(pi_max(l), other*abs(pi_ij))
+            end do
+         end do
+      end do
+      sums = strain_sums_t(ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, pi_max)
+   end subroutine lane_loop
+
+end module strain_sums
