@@ -1,8 +1,8 @@
 !> A rectangle of incompressible fluid that starts to rotate as a rigid body, without walls or gravity.
 !!
-!! Source: Colagrossi, PhD thesis (2005); Le Touze et al., Int. J. Numer. Methods Fluids 73 (2013). With u = Omega (-y, x) about the centre,
-!! Laplace p = 2 rho Omega**2 and p = 0 on the edges at t = 0: the pressure is negative everywhere inside. Later there is no
-!! formula, but energy and angular momentum stay what they are.
+!! Source: Colagrossi, PhD thesis (2005); Le Touze et al., Int. J. Numer. Methods Fluids 73 (2013). With the velocity
+!! Omega (-y, x) about the centre, Laplace p = 2 rho Omega**2 and p = 0 on the edges at t = 0: the pressure is negative
+!! everywhere inside. Later there is no formula, but energy and angular momentum stay what they are.
 module rotating_square
    use kinds, only: dp
    implicit none
