@@ -67,8 +67,9 @@ contains
          lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
                     //', h = 2 dx = '//short(model%kernel%h)
          lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
-         lines(3) = 'diffusion     constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
+         lines(3) = 'diffusion     '//diffusion_text(scene, model)
          lines(4) = 'Reynolds      none: alpha = 0'
+         if (model%dynamic) lines(4) = 'Reynolds      none: viscosity = 0'
          if (model%alpha > 0) lines(4) = 'Reynolds      Re = '//short(8*speed*d/(model%alpha*model%kernel%h*model%c0)) &
             //', Re_dx = '//short(8*speed*model%dx/(model%alpha*model%kernel%h*model%c0)) &
             //' (U = '//short(speed)//')'
@@ -101,6 +102,20 @@ contains
       if (.not. speed > 0) speed = scene%fluid%reference_speed
    end function reference_speed
 
+   function diffusion_text(scene, model) result(words)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+
+      if (.not. model%dynamic) then
+         words = 'constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
+      else
+         words = 'dynamic: C_S = '//short(scene%model%c_s)//', C_delta = '//short(scene%model%c_delta)//', '
+         if (scene%model%limiter == 'strain_rate') words = words//'||D|| clipped so that '
+         words = words//'alpha_i, delta_i <= '//short(model%limit)//'; alpha = '//short(model%alpha)
+      end if
+   end function diffusion_text
+
    function used(scene, model) result(words)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -108,9 +123,16 @@ contains
 
       words = 'RK4'
       if (model%gravity > 0) words = words//', gravity'
-      if (any(model%walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//walls_text(model)//')'
-      if (model%alpha > 0) words = words//', viscosity'
-      if (model%delta > 0) words = words//', density diffusion'
+      if (model%has_force()) words = words//', uniform force'
+      if (model%central_rate > 0) words = words//', central force'
+      associate (walls => model%walls)
+         if (any(walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//sides_text(walls%present)//')'
+         if (any(walls%no_slip)) words = words//', no slip ('//sides_text(walls%no_slip)//')'
+         if (any(walls%periodic)) words = words//', periodic ('//sides_text(walls%periodic([1, 1, 2, 2]))//')'
+      end associate
+      if (model%dynamic) words = words//', strain rate'
+      if (model%alpha > 0 .or. model%dynamic) words = words//', viscosity'
+      if (model%delta > 0 .or. model%dynamic) words = words//', density diffusion'
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
    end function used
 
@@ -122,24 +144,26 @@ contains
       words = ''
       if (.not. model%gravity > 0) words = words//', gravity'
       if (.not. any(model%walls%present)) words = words//', walls'
-      if (.not. model%alpha > 0) words = words//', viscosity'
-      if (.not. model%delta > 0) words = words//', density diffusion (no gradients, no second pass)'
+      if (.not. (any(model%walls%present) .or. any(model%walls%periodic))) words = words//', images'
+      if (.not. model%dynamic) words = words//', strain rate'
+      if (.not. (model%alpha > 0 .or. model%dynamic)) words = words//', viscosity'
+      if (.not. (model%delta > 0 .or. model%dynamic)) words = words//', density diffusion (no gradients, no second pass)'
       if (size(scene%probes) == 0) words = words//', probes'
       if (words == '') words = ', nothing'
       words = words(3:)
    end function unused
 
-   function walls_text(model) result(words)
-      type(model_t), intent(in) :: model
+   function sides_text(sides) result(words)
+      logical, intent(in) :: sides(4)
       character(:), allocatable :: words
 
       words = ''
-      if (model%walls%present(left_wall)) words = words//' left'
-      if (model%walls%present(right_wall)) words = words//' right'
-      if (model%walls%present(bottom_wall)) words = words//' bottom'
-      if (model%walls%present(top_wall)) words = words//' top'
+      if (sides(left_wall)) words = words//' left'
+      if (sides(right_wall)) words = words//' right'
+      if (sides(bottom_wall)) words = words//' bottom'
+      if (sides(top_wall)) words = words//' top'
       words = words(2:)
-   end function walls_text
+   end function sides_text
 
    !> Time by phase, budget and files.
    subroutine closing_table(log, timers, seconds, budget, run, path)
