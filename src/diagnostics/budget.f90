@@ -13,7 +13,7 @@ module budget
    implicit none
    private
 
-   public :: budget_t, terms_t, works_t, start_budget, update_budget, fluid_mass
+   public :: budget_t, terms_t, works_t, start_budget, update_budget, add_rotation, fluid_mass
 
    !> What a scene's budget consists of besides kinetic and elastic energy.
    type :: terms_t
@@ -22,6 +22,8 @@ module budget
       logical :: diffusion = .false.    !! Q_delta
       logical :: walls = .false.        !! W_s
       logical :: force = .false.        !! W_f: a uniform force
+      logical :: rotation = .false.     !! Q_omega: a real viscosity
+      logical :: eddies = .false.       !! alpha_i and delta_i of the dynamic model
    end type terms_t
 
    !> Energies given to the fluid since t = 0.
@@ -41,11 +43,13 @@ module budget
       real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
       real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
       real(dp) :: w_f = 0                    !! work of the uniform force
+      real(dp) :: q_omega = 0                !! mu int int vorticity**2 dA dt with the real viscosity mu
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
       real(dp) :: peak_time(4) = -1          !! first kinetic, potential, second kinetic, elastic maximum; -1: not yet
       real(dp), private :: peak = -huge(1.0_dp), candidate = 0
       integer, private :: sought = 1         !! which of the maxima comes next
+      real(dp), private :: rotation_time = -1, enstrophy = 0   !! when Q_omega was last added to; -1: never
    end type budget_t
 
 contains
@@ -66,6 +70,8 @@ contains
       has%diffusion = model%delta > 0 .or. model%dynamic
       has%walls = any(model%walls%present)
       has%force = model%has_force()
+      has%rotation = model%viscosity > 0
+      has%eddies = model%dynamic
    end function terms_of
 
    !> Takes the initial energies and the rest state's.
@@ -142,6 +148,20 @@ contains
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
+
+   !> Adds to Q_omega what the real viscosity has dissipated since the last call, by the trapezoidal rule.
+   !! Source: eq. 29.
+   pure subroutine add_rotation(self, model, time, enstrophy)
+      type(budget_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: time
+      real(dp), intent(in) :: enstrophy   !! int vorticity**2 dA at this time
+
+      if (.not. self%rotation_time < 0) &
+         self%q_omega = self%q_omega + model%viscosity*(time - self%rotation_time)*(self%enstrophy + enstrophy)/2
+      self%rotation_time = time
+      self%enstrophy = enstrophy
+   end subroutine add_rotation
 
    ! A maximum of the energies in turn; the next one is sought once energy has fallen clearly from it.
    subroutine seek_peak(self, time)

@@ -2,6 +2,7 @@
 module energy_columns
    use budget, only: budget_t
    use columns, only: columns_t
+   use gradient_fields, only: extent_t, gradient_numbers_t
    use kinds, only: dp
    use time_scale, only: time_scale_t
    use time_step, only: step_t
@@ -15,8 +16,9 @@ module energy_columns
 contains
 
    !> Names, units and values in one: what is not in the budget's terms has no column.
-   pure type(columns_t) function energy_row(budget, run, scale) result(row)
+   pure type(columns_t) function energy_row(budget, gradients, run, scale) result(row)
       type(budget_t), intent(in) :: budget   !! as of the last update
+      type(gradient_numbers_t), intent(in) :: gradients   !! looked at only with the dynamic model
       type(step_t), intent(in) :: run
       type(time_scale_t), intent(in) :: scale
 
@@ -29,6 +31,14 @@ contains
       call row%add('mach', 'max(|u|, sqrt(p/rho)) / c0', run%mach)
       call row%add('density_variation', 'largest |rho - rho0| / rho0', run%variation)
       call row%add('max_speed', 'length/time', run%speed)
+      if (budget%has%rotation) then
+         call row%add('Q_omega', energy, budget%q_omega)
+         call row%add('Q_omega/dE', share, budget%q_omega/budget%normaliser)
+      end if
+      if (budget%has%eddies) then
+         call add_extent('alpha', gradients%alpha, row)
+         call add_extent('delta', gradients%delta, row)
+      end if
    end function energy_row
 
    pure subroutine add_energies(budget, row)
@@ -64,5 +74,15 @@ contains
          call row%add('balance_error/dE', share, b%balance_error)
       end associate
    end subroutine add_shares
+
+   pure subroutine add_extent(name, extent, row)
+      character(*), intent(in) :: name
+      type(extent_t), intent(in) :: extent
+      type(columns_t), intent(inout) :: row
+
+      call row%add(name//'_min', '-', extent%least)
+      call row%add(name//'_mean', '-', extent%mean)
+      call row%add(name//'_max', '-', extent%largest)
+   end subroutine add_extent
 
 end module energy_columns

@@ -1,12 +1,13 @@
 !> Measures and writes what is due: energies, probes, errors and snapshots.
 module recorder
-   use budget, only: budget_t, start_budget, update_budget, works_t
+   use budget, only: add_rotation, budget_t, start_budget, update_budget, works_t
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use columns, only: columns_t
    use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
+   use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -16,6 +17,7 @@ module recorder
    use series, only: series_t
    use settings, only: settings_t
    use snapshot, only: snapshot_field, snapshot_head, write_snapshot
+   use snapshot_fields, only: fill_fields
    use table, only: table_t
    use time_scale, only: new_time_scale, time_scale_t
    use time_step, only: step_t
@@ -34,6 +36,7 @@ module recorder
       type(sensor_t), allocatable :: sensors(:)
       type(snapshot_head) :: head
       type(time_scale_t) :: scale
+      type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks for them
       real(dp) :: time_before = 0      !! of the step before
    contains
       procedure :: start
@@ -64,7 +67,11 @@ contains
       self%head = snapshot_head(title=trim(scene%scene%title), version=version, git_id=git_id, input_text=input_text, &
                                 reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
                                 density=model%rho0, gravity=model%gravity)
-      if (.not. self%when_energy%is_never()) call start_energies(self, scene, directory, problem)
+      if (self%when_energy%is_never()) then
+         self%budget%has%rotation = .false.   ! no integral over time without its values
+      else
+         call start_energies(self, scene, directory, problem)
+      end if
       if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
          call start_probes(self, scene, model, directory, problem)
       call self%errors%start(scene, model, p, directory%file(errors_name), self%scale, problem)
@@ -79,7 +86,7 @@ contains
       type(step_t) :: at_start
       character(200) :: lines(3)
 
-      row = energy_row(self%budget, at_start, self%scale)
+      row = energy_row(self%budget, self%gradients, at_start, self%scale)
       lines(1) = 'title: '//scene%scene%title
       write (lines(2), '(a, es23.16)') 'dE_Mtot: ', self%budget%normaliser
       lines(3) = 'normalised by dE_Mtot = '//self%budget%scale
@@ -124,16 +131,12 @@ contains
       logical, intent(in) :: last            !! the run ends here
       type(failure), intent(inout) :: problem
 
-      if (last .or. due(self%when_energy)) then
-         call update_budget(self%budget, model, p, run%time, &
-                            works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force))
-         if (self%energy_table%is_open()) call write_energies(self, run, problem)
-      end if
+      if (last .or. due(self%when_energy)) call record_energies(self, model, p, near, run, problem)
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
       end if
       call self%errors%record(model, p, run%step, run%time, self%time_before, last, problem)
-      if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, run, directory, problem)
+      if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, near, run, directory, problem)
       self%time_before = run%time
 
    contains
@@ -146,15 +149,27 @@ contains
 
    end subroutine record
 
-   subroutine write_energies(self, run, problem)
+   subroutine record_energies(self, model, p, near, run, problem)
       class(recorder_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       type(failure), intent(inout) :: problem
+      type(gradient_fields_t) :: fields
       type(columns_t) :: row
 
-      row = energy_row(self%budget, run, self%scale)
+      call update_budget(self%budget, model, p, run%time, &
+                         works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force))
+      if (.not. self%energy_table%is_open()) return
+      if (self%budget%has%rotation .or. self%budget%has%eddies) then
+         call measure_gradients(model, p, near, fields)
+         call sum_up(model, p, fields, self%gradients)
+         call add_rotation(self%budget, model, run%time, self%gradients%enstrophy)
+      end if
+      row = energy_row(self%budget, self%gradients, run, self%scale)
       call self%energy_table%row(row%values, problem)
-   end subroutine write_energies
+   end subroutine record_energies
 
    pure function probe_row(self, model, p, near, time) result(row)
       class(recorder_t), intent(in) :: self
@@ -173,27 +188,26 @@ contains
    end function probe_row
 
    !> Writes the base state as the next snapshot, particles in the order of their numbers.
-   subroutine save_snapshot(self, scene, model, p, run, directory, problem)
+   subroutine save_snapshot(self, scene, model, p, near, run, directory, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
       type(snapshot_field), allocatable :: fields(:)
       character(:), allocatable :: path
       integer, allocatable :: slot(:), id(:)
-      integer :: i, k
+      integer :: i
 
-      allocate (slot(p%n), fields(scene%output%n_fields))
+      allocate (slot(p%n))
       do i = 1, p%n_own
          if (p%id(i) > 0) slot(p%id(i)) = i
       end do
       id = [(i, i=1, p%n)]
-      do k = 1, size(fields)
-         call fill_field(fields(k), trim(scene%output%fields(k)), model, p, slot)
-      end do
+      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, slot, fields)
       self%head%time = run%time
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
@@ -201,33 +215,6 @@ contains
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), path(index(path, '/', back=.true.) + 1:), run%time, problem)
    end subroutine save_snapshot
-
-   ! A field by its name in &output fields.
-   subroutine fill_field(field, name, model, p, slot)
-      type(snapshot_field), intent(inout) :: field
-      character(*), intent(in) :: name
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      integer, intent(in) :: slot(:)   !! (n) slot of each particle
-
-      field%name = name
-      select case (name)
-      case ('velocity')
-         field%unit = 'length/time'
-         field%long_name = 'velocity of the particle'
-         allocate (field%vectors(size(slot), 2))
-         field%vectors(:, 1) = p%base%u(slot)
-         field%vectors(:, 2) = p%base%v(slot)
-      case ('pressure')
-         field%unit = 'mass/(length time^2)'
-         field%long_name = 'pressure, c0^2 (rho - rho0)'
-         field%values = model%c0**2*p%base%s(slot)
-      case ('density')
-         field%unit = 'mass/length^3'
-         field%long_name = 'density'
-         field%values = model%rho0 + p%base%s(slot)
-      end select
-   end subroutine fill_field
 
    !> Closes the tables.
    subroutine finish(self, problem)

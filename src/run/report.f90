@@ -258,6 +258,7 @@ contains
          if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
          if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
          if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)
+         if (has%rotation) call file%add('Q_omega', b%q_omega/de)
          do k = 1, size(peak_names)
             ! The maxima come in turn: without potential energy there is only the first.
             if (k > 1 .and. .not. has%potential) exit

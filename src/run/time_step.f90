@@ -73,6 +73,7 @@ contains
 
       call sort_particles(near, p, model%kernel, model%walls, model%dx, expected, run%scattered)
       if (run%scattered) return
+      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
       call list_ranges(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
 
@@ -143,7 +144,6 @@ contains
       integer :: b, c
 
       call timers%start(phase_gradients)
-      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
       !$omp parallel do default(none) shared(model, p, near, blocks) private(c) schedule(dynamic)
       do b = 1, size(blocks)
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
