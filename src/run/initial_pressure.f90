@@ -1,5 +1,6 @@
 !> Pressure of a body at t = 0.
 module initial_pressure
+   use hydrostatics, only: hydrostatic_pressure
    use kinds, only: dp
    use settings, only: body_settings, settings_t
    implicit none
@@ -21,7 +22,9 @@ contains
 
       select case (body%pressure)
       case ('hydrostatic')
-         p = hydrostatic(scene, body%upper(2) - position(2))
+         associate (fluid => scene%fluid)
+            p = hydrostatic_pressure(body%upper(2) - position(2), fluid%density, fluid%sound_speed, fluid%gravity)
+         end associate
       case ('incompressible')
          ! x is the distance from the side wall that the column leans on.
          x = position(1) - body%lower(1)
@@ -33,23 +36,6 @@ contains
          p = 0
       end select
    end function pressure_at
-
-   !> Pressure at a depth of fluid at rest: dp/dy = -rho g with p = c0**2 (rho - rho0).
-   pure real(dp) function hydrostatic(scene, depth) result(p)
-      type(settings_t), intent(in) :: scene
-      real(dp), intent(in) :: depth
-      real(dp) :: x
-
-      associate (fluid => scene%fluid)
-         x = fluid%gravity*depth/fluid%sound_speed**2
-         ! exp(x) - 1 by its series where the difference would lose digits
-         if (abs(x) < 1.0e-3_dp) then
-            p = fluid%density*fluid%sound_speed**2*x*(1 + x/2*(1 + x/3*(1 + x/4)))
-         else
-            p = fluid%density*fluid%sound_speed**2*(exp(x) - 1)
-         end if
-      end associate
-   end function hydrostatic
 
    !> p/(rho g) in a column of incompressible fluid at the moment its gate is gone.
    !!

@@ -9,6 +9,7 @@ module report
    use omp_lib, only: omp_get_max_threads
    use particles, only: bytes_per_slot
    use progress, only: duration_text
+   use recorder, only: recorder_t
    use run_log, only: log_t
    use scene_setup, only: needed_features
    use settings, only: settings_t
@@ -175,10 +176,7 @@ contains
       character(*), intent(in) :: path      !! result directory
       character(160) :: lines(4)
 
-      lines = [character(160) :: &
-               'Q_alpha '//short(budget%q_alpha/budget%normaliser)//', Q_delta '//short(budget%q_delta/budget%normaliser) &
-               //', Q_total '//short((budget%q_alpha + budget%q_delta)/budget%normaliser)//' of dE_Mtot', &
-               'wall work '//short(budget%w_s/budget%normaliser)//', largest balance error '//short(budget%largest_error), &
+      lines = [character(160) :: dissipation_text(budget), works_text(budget), &
                'largest Ma '//short(run%largest_mach)//', largest |rho - rho0|/rho0 '//short(run%largest_variation), &
                to_text(run%crossings)//' wall crossings, '//to_text(run%singular)//' particle-steps without gradient, ' &
                //to_text(run%repeated)//' steps repeated']
@@ -187,19 +185,43 @@ contains
       call log%line('results in '//path//', what each file is: docs/files.md')
    end subroutine closing_table
 
+   function dissipation_text(budget) result(words)
+      type(budget_t), intent(in) :: budget
+      character(:), allocatable :: words
+
+      associate (b => budget, has => budget%has)
+         words = ''
+         if (has%viscosity) words = words//', Q_alpha '//short(b%q_alpha/b%normaliser)
+         if (has%diffusion) words = words//', Q_delta '//short(b%q_delta/b%normaliser)
+         if (has%viscosity .and. has%diffusion) words = words//', Q_total '//short((b%q_alpha + b%q_delta)/b%normaliser)
+         words = words//' of dE_Mtot'
+         if (.not. (has%viscosity .or. has%diffusion)) words = ', nothing dissipates'
+      end associate
+      words = words(3:)
+   end function dissipation_text
+
+   function works_text(budget) result(words)
+      type(budget_t), intent(in) :: budget
+      character(:), allocatable :: words
+
+      words = ''
+      if (budget%has%walls) words = words//'wall work '//short(budget%w_s/budget%normaliser)//', '
+      if (budget%has%force) words = words//'work of the force '//short(budget%w_f/budget%normaliser)//', '
+      words = words//'largest balance error '//short(budget%largest_error)
+   end function works_text
+
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, reason, particles, run, seconds, budget, problem)
+   subroutine write_summary_file(path, status, reason, particles, run, seconds, recorder, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
       character(*), intent(in) :: reason      !! why it failed; '' if it did not
       integer, intent(in) :: particles
       type(step_t), intent(in) :: run
       real(dp), intent(in) :: seconds
-      type(budget_t), intent(in) :: budget
+      type(recorder_t), intent(in) :: recorder
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
-      integer :: k
 
       rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
       call file%add('status', status)
@@ -211,22 +233,39 @@ contains
       call file%add('run_seconds', seconds)
       call file%add('particle_steps_per_second', rate)
       call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/max(rate, tiny(1.0_dp)))
-      call file%add('dE_Mtot', budget%normaliser)
-      call file%add('energy_balance_error', budget%largest_error)
-      call file%add('wall_work', budget%w_s/budget%normaliser)
-      call file%add('Q_alpha', budget%q_alpha/budget%normaliser)
-      call file%add('Q_delta', budget%q_delta/budget%normaliser)
-      call file%add('Q_total', (budget%q_alpha + budget%q_delta)/budget%normaliser)
+      call summarise_budget(recorder%budget, file)
       call file%add('max_density_variation', run%largest_variation)
       call file%add('max_mach', run%largest_mach)
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
       call file%add('steps_repeated', run%repeated)
-      do k = 1, size(peak_names)
-         if (budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), 'none')
-         if (.not. budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), budget%peak_time(k))
-      end do
+      call file%add('steps_limited', run%limited)
+      call recorder%errors%add_to(file)
       call file%write(path, problem)
    end subroutine write_summary_file
+
+   ! What is not in the budget's terms is left out, as in energy.dat.
+   subroutine summarise_budget(budget, file)
+      type(budget_t), intent(in) :: budget
+      type(summary_t), intent(inout) :: file
+      integer :: k
+
+      associate (b => budget, has => budget%has, de => budget%normaliser)
+         call file%add('dE_Mtot', de)
+         call file%add('energy_balance_error', b%largest_error)
+         if (has%walls) call file%add('wall_work', b%w_s/de)
+         if (has%force) call file%add('force_work', b%w_f/de)
+         if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
+         if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
+         if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)
+         if (has%rotation) call file%add('Q_omega', b%q_omega/de)
+         do k = 1, size(peak_names)
+            ! The maxima come in turn: without potential energy there is only the first.
+            if (k > 1 .and. .not. has%potential) exit
+            if (b%peak_time(k) < 0) call file%add(trim(peak_names(k)), 'none')
+            if (.not. b%peak_time(k) < 0) call file%add(trim(peak_names(k)), b%peak_time(k))
+         end do
+      end associate
+   end subroutine summarise_budget
 
 end module report

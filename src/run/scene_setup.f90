@@ -1,12 +1,14 @@
 !> From the input to the model's constants and the particles at t = 0.
 module scene_setup
+   use body_particles, only: count_sites, place_sites, sites_t
+   use exact_solution, only: exact_solution_t, new_exact_solution
    use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use initial_pressure, only: pressure_at
    use kernel, only: new_kernel
    use kinds, only: dp
    use model, only: model_t
    use particles, only: allocate_particles, features_t, particles_t
-   use settings, only: body_settings, is_wall, settings_t
+   use settings, only: is_wall, settings_t
    implicit none
    private
 
@@ -84,15 +86,6 @@ contains
       end associate
    end function needed_features
 
-   !> Columns and rows of particles in a body: spacing is dx, stretched to fill the body exactly.
-   pure function lattice(body, dx) result(n)
-      type(body_settings), intent(in) :: body
-      real(dp), intent(in) :: dx
-      integer :: n(2)
-
-      n = max(1, nint((body%upper - body%lower)/dx))
-   end function lattice
-
    !> Particles of the whole scene.
    pure integer function count_particles(scene) result(n)
       type(settings_t), intent(in) :: scene
@@ -100,39 +93,43 @@ contains
 
       n = 0
       do k = 1, size(scene%bodies)
-         n = n + product(lattice(scene%bodies(k), scene%spacing()))
+         n = n + count_sites(scene%bodies(k), scene%spacing())
       end do
    end function count_particles
 
-   !> Fills each body with particles on a square lattice, half a spacing from its edges.
+   !> Fills each body with particles.
    !!
-   !! The state is left in `next`, from where the first step takes it. The mass is rho times the cell's area.
+   !! The state is left in `next`, from where the first step takes it. The mass is rho times the area that a particle has.
    subroutine set_up_particles(scene, model, p)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(out) :: p
-      integer :: k, i, j, n(2), slot
-      real(dp) :: cell(2), position(2)
+      type(exact_solution_t) :: solution
+      type(sites_t) :: sites
+      integer :: k, i, slot
+      real(dp) :: position(2), velocity(2), pressure
 
       call allocate_particles(p, count_particles(scene), needed_features(scene))
+      solution = new_exact_solution(scene, model, on_lattice=.false.)
       slot = 0
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k))
-            n = lattice(body, model%dx)
-            cell = (body%upper - body%lower)/n
-            do j = 1, n(2)
-               do i = 1, n(1)
-                  slot = slot + 1
-                  position = body%lower + cell*([i, j] - 0.5_dp)
-                  p%id(slot) = slot
-                  p%next%x(slot) = position(1)
-                  p%next%y(slot) = position(2)
-                  p%next%u(slot) = body%velocity(1)
-                  p%next%v(slot) = body%velocity(2)
-                  p%next%s(slot) = pressure_at(scene, body, position)/model%c0**2
-                  p%next%w(slot) = product(cell)
-                  p%m(slot) = (model%rho0 + p%next%s(slot))*product(cell)
-               end do
+            call place_sites(body, model%dx, sites)
+            do i = 1, size(sites%x)
+               slot = slot + 1
+               position = [sites%x(i), sites%y(i)]
+               velocity = body%velocity
+               if (body%flow == 'exact') velocity = solution%velocity(position)
+               pressure = pressure_at(scene, body, position)
+               if (body%pressure == 'exact') pressure = solution%pressure(position)
+               p%id(slot) = slot
+               p%next%x(slot) = position(1)
+               p%next%y(slot) = position(2)
+               p%next%u(slot) = velocity(1)
+               p%next%v(slot) = velocity(2)
+               p%next%s(slot) = pressure/model%c0**2
+               p%next%w(slot) = sites%area(i)
+               p%m(slot) = (model%rho0 + p%next%s(slot))*sites%area(i)
             end do
          end associate
       end do

@@ -71,7 +71,7 @@ contains
       reason = ''
       if (problem%raised()) reason = problem%message
       seconds = wall_seconds() - started
-      call write_summary_file(directory%file(summary_name), status, reason, p%n, run, seconds, recorder%budget, closing)
+      call write_summary_file(directory%file(summary_name), status, reason, p%n, run, seconds, recorder, closing)
       if (closing%raised()) call problem%raise(closing%code, closing%message)
       if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
          //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
@@ -117,7 +117,8 @@ contains
             status = 'failed: numerics'
             ! The state before the step is still there. A second failure would hide the first.
             run = before
-            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, run, directory, ignored)
+            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, near, run, directory, &
+                                                                                          ignored)
             call recorder%record(scene, model, p, near, run, directory, .true., ignored)
             exit
          end if

@@ -1,0 +1,119 @@
+!> Where the particles of a body stand at t = 0, and the area that each has.
+!!
+!! The areas of a body's particles add up to the body's area exactly.
+module body_particles
+   use kinds, only: dp
+   use settings, only: body_settings
+   implicit none
+   private
+
+   public :: sites_t, count_sites, place_sites
+
+   real(dp), parameter :: pi = acos(-1.0_dp)
+
+   !> Places of particles and the areas that they stand for.
+   type :: sites_t
+      real(dp), allocatable :: x(:), y(:)   !! (particles)
+      real(dp), allocatable :: area(:)      !! (particles)
+   end type sites_t
+
+contains
+
+   !> Number of particles in a body.
+   pure integer function count_sites(body, dx) result(n)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+      integer :: k
+
+      if (body%shape == 'disc') then
+         n = sum([(on_ring(k), k=1, rings(body, dx))])
+      else
+         n = product(lattice(body, dx))
+      end if
+   end function count_sites
+
+   !> Places the particles of a body.
+   pure subroutine place_sites(body, dx, sites)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+      type(sites_t), intent(out) :: sites
+      integer :: n
+
+      n = count_sites(body, dx)
+      allocate (sites%x(n), sites%y(n), sites%area(n))
+      if (body%shape == 'disc') then
+         call place_on_rings(body, rings(body, dx), sites)
+      else
+         call place_on_lattice(body, lattice(body, dx), sites)
+      end if
+   end subroutine place_sites
+
+   ! Columns and rows of a rectangle: spacing is dx, stretched to fill the body exactly.
+   pure function lattice(body, dx) result(n)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+      integer :: n(2)
+
+      n = max(1, nint((body%upper - body%lower)/dx))
+   end function lattice
+
+   ! Half a spacing from the rectangle's edges.
+   pure subroutine place_on_lattice(body, n, sites)
+      type(body_settings), intent(in) :: body
+      integer, intent(in) :: n(2)
+      type(sites_t), intent(inout) :: sites
+      real(dp) :: cell(2)
+      integer :: i, j, k
+
+      cell = (body%upper - body%lower)/n
+      do j = 1, n(2)
+         do i = 1, n(1)
+            k = (j - 1)*n(1) + i
+            sites%x(k) = body%lower(1) + cell(1)*(i - 0.5_dp)
+            sites%y(k) = body%lower(2) + cell(2)*(j - 0.5_dp)
+         end do
+      end do
+      sites%area = product(cell)
+   end subroutine place_on_lattice
+
+   ! Rings of a disc, each dx wide, stretched to fill the disc exactly.
+   pure integer function rings(body, dx)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+
+      rings = max(1, nint(body%radius/dx))
+   end function rings
+
+   ! Particles on ring k: its area pi (2k - 1) dx**2 in parts of about dx**2.
+   pure integer function on_ring(k)
+      integer, intent(in) :: k
+
+      on_ring = nint(pi*(2*k - 1))
+   end function on_ring
+
+   ! Evenly spaced on concentric rings, at the radius that gives each ring its second moment. Successive rings are turned
+   ! by the golden section of the spacing between particles, so that they do not line up into spokes.
+   pure subroutine place_on_rings(body, n_rings, sites)
+      type(body_settings), intent(in) :: body
+      integer, intent(in) :: n_rings
+      type(sites_t), intent(inout) :: sites
+      real(dp), parameter :: golden = (sqrt(5.0_dp) - 1)/2
+      real(dp) :: width, radius, angle
+      integer :: i, k, n, slot
+
+      width = body%radius/n_rings
+      slot = 0
+      do k = 1, n_rings
+         n = on_ring(k)
+         radius = width*sqrt((real(k, dp)**2 + real(k - 1, dp)**2)/2)
+         do i = 1, n
+            slot = slot + 1
+            angle = 2*pi*(i + modulo(k*golden, 1.0_dp))/n
+            sites%x(slot) = body%centre(1) + radius*cos(angle)
+            sites%y(slot) = body%centre(2) + radius*sin(angle)
+            sites%area(slot) = pi*(2*k - 1)*width**2/n
+         end do
+      end do
+   end subroutine place_on_rings
+
+end module body_particles
