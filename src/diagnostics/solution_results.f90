@@ -17,7 +17,7 @@ module solution_results
    end type result_t
 
    !> Times over which the loss of an impact is averaged, in c0 t/L; why these: docs/scenes.md.
-   real(dp), parameter, public :: impact_window(2) = [10.0_dp, 20.0_dp]
+   real(dp), parameter, public :: impact_window(2) = [5.0_dp, 10.0_dp]
 
 contains
 
