@@ -3,9 +3,10 @@ module key_reader
    use findings, only: findings_t, place_t
    use key_visitor, only: key_visitor_t, range_t
    use kinds, only: dp
+   use key_words, only: all_values, count_problem, free_text, shown_values, some_values, take_option
    use namelist_document, only: document_t, entry_t, value_t
-   use namelist_text, only: scan_words
    use text, only: lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
+   use text_cursor, only: letters
    implicit none
    private
 
@@ -13,8 +14,6 @@ module key_reader
 
    integer, parameter :: most_names = 64    ! keys of one group, or groups
    integer, parameter :: name_length = 32, meaning_length = 160
-
-   integer, parameter :: all_values = 1, some_values = 2, free_text = 3   ! what a key collects
 
    !> A key or group that exists.
    type :: known_t
@@ -39,6 +38,7 @@ module key_reader
       procedure :: leave
       procedure :: finish
       procedure :: real_key
+      procedure :: real_or_word_key
       procedure :: vector_key
       procedure :: integer_key
       procedure :: text_key
@@ -81,6 +81,7 @@ contains
       self%group_name = name
       self%group = self%document%index_of(name, number)
       self%key_count = 0
+      call self%always()
    end subroutine enter
 
    !> Notes keys of the group that nobody asked for, and required ones that are not there.
@@ -174,6 +175,32 @@ contains
       call self%vector_key(name, values, range, unit, meaning, required)
       value = values(1)
    end subroutine real_key
+
+   !> Reads a real number, or a word in its place.
+   subroutine real_or_word_key(self, name, value, word, chosen, range, unit, meaning)
+      class(key_reader_t), intent(inout) :: self
+      character(*), intent(in) :: name, unit, meaning
+      real(dp), intent(inout) :: value
+      character(*), intent(in) :: word
+      logical, intent(inout) :: chosen
+      type(range_t), intent(in) :: range
+
+      type(value_t) :: words(1)
+      type(place_t) :: places(1)
+      logical :: given(1)
+
+      call self%note_key(name, meaning)
+      call self%collect(name, words, places, given, all_values)
+      if (.not. given(1)) return
+      chosen = lower_case(words(1)%text) == word
+      if (chosen .and. words(1)%needs_quotes .and. .not. words(1)%quoted) then
+         call self%refuse(places(1), name, ': '//words(1)%text//' is text and needs quotes: '//quoted(word))
+      else if (.not. chosen .and. (words(1)%quoted .or. scan(words(1)%text, letters) == 1)) then
+         call self%refuse(places(1), name, ' = '//quoted(words(1)%text)//' is unknown; write a number or '//quoted(word))
+      else if (.not. chosen) then
+         call self%take_real(name, words(1), places(1), range, unit, value)
+      end if
+   end subroutine real_or_word_key
 
    !> Reads a few real numbers, all together or one by one.
    subroutine vector_key(self, name, value, range, unit, meaning, required)
@@ -367,7 +394,7 @@ contains
       self%key_count = self%key_count + 1
       self%keys(self%key_count) = known_t(name, meaning, .false.)
       if (.not. present(required)) return
-      self%keys(self%key_count)%missing = required .and. self%document%entry_of(self%group, name) == 0
+      self%keys(self%key_count)%missing = required .and. self%active .and. self%document%entry_of(self%group, name) == 0
    end subroutine note_key
 
    !> Gathers the values given for a key in the group entered.
@@ -405,57 +432,11 @@ contains
             given(at) = .true.
          end do
       end do
+      if (any(given) .and. .not. self%active) then
+         call self%notes%warning(places(findloc(given, .true., 1)), '&'//trim(self%group_name)//' '//name &
+                                 //' has no effect without '//self%condition)
+      end if
    end subroutine collect
-
-   !> Takes the text behind --set group.key= apart; free text without quotes is kept as it is.
-   subroutine take_option(item, style, notes, group)
-      type(entry_t), intent(inout) :: item
-      integer, intent(in) :: style
-      type(findings_t), intent(inout) :: notes
-      character(*), intent(in) :: group
-
-      if (style == free_text .and. scan(adjustl(item%raw), '"'//"'") /= 1) then
-         call item%add_value(trim(adjustl(item%raw)), .true.)
-      else
-         call scan_words(item%raw, item, notes, group)
-         if (allocated(item%values)) item%values%needs_quotes = .false.
-      end if
-   end subroutine take_option
-
-   !> Says what is wrong with the number of values, '' when nothing is.
-   pure function count_problem(element, length, n, fewer_allowed) result(problem)
-      integer, intent(in) :: element, length, n   !! element set or 0, values kept, values given
-      logical, intent(in) :: fewer_allowed
-      character(:), allocatable :: problem
-
-      problem = ''
-      if (element > 0 .and. length == 1) then
-         problem = '('//to_text(element)//') is set, but it is not an array'
-      else if (element > length) then
-         problem = '('//to_text(element)//') is set, but it has only '//to_text(length)//' values'
-      else if (element > 0 .and. n /= 1) then
-         problem = '('//to_text(element)//') takes 1 value, not '//to_text(n)
-      else if (element == 0 .and. fewer_allowed .and. n > length) then
-         problem = ' takes at most '//to_text(length)//' values, not '//to_text(n)
-      else if (element == 0 .and. .not. fewer_allowed .and. n /= length) then
-         problem = ' takes '//to_text(length)//trim(merge(' value ', ' values', length == 1))//', not '//to_text(n)
-      end if
-   end function count_problem
-
-   !> The first few values, for a message.
-   pure function shown_values(values) result(line)
-      type(value_t), intent(in) :: values(:)
-      character(:), allocatable :: line
-
-      integer, parameter :: shown = 4
-      integer :: i
-
-      line = values(1)%text
-      do i = 2, min(shown, size(values))
-         line = line//' | '//values(i)%text
-      end do
-      if (size(values) > shown) line = line//' ...'
-   end function shown_values
 
    !> Notes a mistake in a key of the group entered.
    subroutine refuse(self, place, name, message)
