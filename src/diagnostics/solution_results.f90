@@ -95,7 +95,8 @@ contains
       real(dp) :: period, time, axis
       logical :: found
 
-      allocate (equal, source=zero_crossings(times, a - b))
+      ! At t = 0 they are equal to the last digit or nearly.
+      allocate (equal, source=zero_crossings(times(2:), a(2:) - b(2:)))
       period = 0
       if (size(equal) >= 2) period = equal(2)
       results(1) = result_t('drop_period', period, size(equal) >= 2)
