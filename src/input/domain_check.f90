@@ -36,7 +36,6 @@ contains
       type(findings_t), intent(inout) :: notes
 
       character(choice_length) :: kinds_there(4)
-      character(:), allocatable :: name
       integer :: first, other, periodic
 
       if (.not. notes%clean('domain')) return
@@ -45,10 +44,11 @@ contains
          if (count(kinds_there(first:first + 1) == 'periodic') /= 1) cycle
          periodic = findloc(kinds_there(first:first + 1), 'periodic', 1) + first - 1
          other = 2*first + 1 - periodic
-         name = trim(side_names(periodic))
-         call notes%mistake(document%place_of('domain', 1, name), 'domain', '&domain '//name//" = 'periodic' needs " &
-                            //trim(side_names(other))//" = 'periodic' too, which is "//quoted(kinds_there(other)) &
-                            //': both are the same line')
+         associate (name => side_names(periodic))
+            call notes%mistake(document%place_of('domain', 1, trim(name)), 'domain', '&domain '//trim(name) &
+                               //" = 'periodic' needs "//trim(side_names(other))//" = 'periodic' too, which is " &
+                               //quoted(kinds_there(other))//': both are the same line')
+         end associate
       end do
    end subroutine check_pairs
 
@@ -94,7 +94,7 @@ contains
       if (extent >= least*setup%spacing()) return
       call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is '//trim(words(axis))//' than ' &
                          //short(least*setup%spacing())//', '//short(least)//' dx between '//trim(side_names(2*axis - 1))//' and ' &
-                         //trim(side_names(2*axis))//' '//what//': raise the resolution')
+                         //trim(side_names(2*axis))//' '//what//': raise the resolution or move them apart')
    end subroutine check_room
 
    !> Where bottom and top are one line, fluid with weight would fall for ever; a central field would jump there.
