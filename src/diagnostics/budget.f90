@@ -1,7 +1,8 @@
 !> The energy budget over a run: normaliser, balance error and milestones.
 !!
 !! Source: sec. 5 of the paper. Energies are normalised by Delta E_Mtot, what the fluid can lose until it rests;
-!! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls' images gave.
+!! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
+!! the uniform force gave.
 module budget
    use energy, only: energies_t, measure_energies
    use images, only: bottom_wall, left_wall, right_wall
@@ -12,22 +13,43 @@ module budget
    implicit none
    private
 
-   public :: budget_t, start_budget, update_budget, fluid_mass
+   public :: budget_t, terms_t, works_t, start_budget, update_budget, add_rotation, fluid_mass
+
+   !> What a scene's budget consists of besides kinetic and elastic energy.
+   type :: terms_t
+      logical :: potential = .false.    !! E_P: gravity or a central force
+      logical :: viscosity = .false.    !! Q_alpha
+      logical :: diffusion = .false.    !! Q_delta
+      logical :: walls = .false.        !! W_s
+      logical :: force = .false.        !! W_f: a uniform force
+      logical :: rotation = .false.     !! Q_omega: a real viscosity
+      logical :: eddies = .false.       !! alpha_i and delta_i of the dynamic model
+   end type terms_t
+
+   !> Energies given to the fluid since t = 0.
+   type :: works_t
+      real(dp) :: alpha = 0, delta = 0, walls = 0, force = 0
+   end type works_t
 
    !> Where the energy is and has gone.
    type :: budget_t
+      type(terms_t) :: has
       type(energies_t) :: initial
       type(energies_t) :: rest               !! 0 where the scene has no tank that it could rest in
       logical :: has_rest = .false.
       real(dp) :: normaliser = 1             !! Delta E_Mtot, or another scale: start_budget
+      character(:), allocatable :: scale     !! what the normaliser is, in words
       type(energies_t) :: now
       real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
-      real(dp) :: w_s = 0                    !! work of the walls' images
+      real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
+      real(dp) :: w_f = 0                    !! work of the uniform force
+      real(dp) :: q_omega = 0                !! mu int int vorticity**2 dA dt with the real viscosity mu
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
       real(dp) :: peak_time(4) = -1          !! first kinetic, potential, second kinetic, elastic maximum; -1: not yet
       real(dp), private :: peak = -huge(1.0_dp), candidate = 0
       integer, private :: sought = 1         !! which of the maxima comes next
+      real(dp), private :: rotation_time = -1, enstrophy = 0   !! when Q_omega was last added to; -1: never
    end type budget_t
 
 contains
@@ -39,10 +61,24 @@ contains
       mass = sum(p%m(1:p%n_own))
    end function fluid_mass
 
+   !> What the scene's budget consists of.
+   pure type(terms_t) function terms_of(model) result(has)
+      type(model_t), intent(in) :: model
+
+      has%potential = model%gravity > 0 .or. model%central_rate > 0
+      has%viscosity = model%alpha > 0 .or. model%dynamic
+      has%diffusion = model%delta > 0 .or. model%dynamic
+      has%walls = any(model%walls%present)
+      has%force = model%has_force()
+      has%rotation = model%viscosity > 0
+      has%eddies = model%dynamic
+   end function terms_of
+
    !> Takes the initial energies and the rest state's.
    !!
    !! Where there is nothing to lose that could be a measure (no tank, or fluid at rest), energies are normalised by
-   !! kinetic and elastic energy at t = 0 and the potential energy of the fluid above its lowest particle.
+   !! kinetic and elastic energy at t = 0 and the potential energy: gravity's above the lowest particle,
+   !! a central force's from its centre.
    subroutine start_budget(self, model, p, width)
       type(budget_t), intent(out) :: self
       type(model_t), intent(in) :: model
@@ -51,37 +87,81 @@ contains
       real(dp), parameter :: least_share = 1.0e-3_dp
       real(dp) :: mass
 
+      self%has = terms_of(model)
       call measure_energies(model, p, self%initial)
       self%now = self%initial
-      self%has_rest = model%gravity > 0 .and. all(model%walls%present([left_wall, right_wall, bottom_wall]))
-      self%normaliser = self%initial%kinetic + self%initial%elastic &
-                        + self%initial%potential - fluid_mass(p)*model%gravity*minval(p%base%y(1:p%n_own))
+      self%has_rest = can_rest(model)
+      mass = fluid_mass(p)
+      self%normaliser = self%initial%total()
+      self%scale = other_scale(model)
+      if (model%gravity > 0) self%normaliser = self%normaliser - mass*model%gravity*minval(p%base%y(1:p%n_own))
       if (self%has_rest) then
-         mass = fluid_mass(p)
          call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
          self%rest%potential = self%rest%potential + mass*model%gravity*model%walls%at(bottom_wall)
-         if (self%initial%total() - self%rest%total() > least_share*self%normaliser) &
+         if (self%initial%total() - self%rest%total() > least_share*self%normaliser) then
             self%normaliser = self%initial%total() - self%rest%total()
+            self%scale = 'E_M(0) - E_M(at rest in the tank)'
+         end if
       end if
-      if (.not. self%normaliser > 0) self%normaliser = 1
+      if (.not. self%normaliser > 0) then
+         self%normaliser = 1
+         self%scale = '1: there is no energy at the start'
+      end if
    end subroutine start_budget
 
+   ! A floor, and walls or a period from left to right, hold the fluid when nothing but gravity acts.
+   pure logical function can_rest(model)
+      type(model_t), intent(in) :: model
+
+      associate (walls => model%walls)
+         can_rest = model%gravity > 0 .and. walls%present(bottom_wall) &
+                    .and. (walls%periodic(1) .or. all(walls%present([left_wall, right_wall]))) &
+                    .and. .not. (model%central_rate > 0 .or. model%has_force())
+      end associate
+   end function can_rest
+
+   ! What the normaliser is where there is no rest state, or too little to lose until it.
+   pure function other_scale(model) result(text)
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: text
+
+      text = 'E_K(0) + E_C(0)'
+      if (model%central_rate > 0) text = text//' + E_P(0) from the centre'
+      if (model%gravity > 0) text = text//' + E_P(0) above the lowest particle'
+   end function other_scale
+
    !> Energies and balance of the base state.
-   subroutine update_budget(self, model, p, time, work_alpha, work_delta, work_walls)
+   subroutine update_budget(self, model, p, time, works)
       type(budget_t), intent(inout) :: self
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       real(dp), intent(in) :: time
-      real(dp), intent(in) :: work_alpha, work_delta, work_walls   !! given to the fluid since t = 0
+      type(works_t), intent(in) :: works
 
       call measure_energies(model, p, self%now)
-      self%q_alpha = 0 - work_alpha   ! 0, not -0, for an inviscid fluid
-      self%q_delta = 0 - work_delta
-      self%w_s = work_walls
-      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%initial%total())/self%normaliser
+      self%q_alpha = 0 - works%alpha   ! 0, not -0, for an inviscid fluid
+      self%q_delta = 0 - works%delta
+      self%w_s = works%walls
+      self%w_f = works%force
+      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%w_f &
+                            - self%initial%total())/self%normaliser
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
+
+   !> Adds to Q_omega what the real viscosity has dissipated since the last call, by the trapezoidal rule.
+   !! Source: eq. 29.
+   pure subroutine add_rotation(self, model, time, enstrophy)
+      type(budget_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: time
+      real(dp), intent(in) :: enstrophy   !! int vorticity**2 dA at this time
+
+      if (.not. self%rotation_time < 0) &
+         self%q_omega = self%q_omega + model%viscosity*(time - self%rotation_time)*(self%enstrophy + enstrophy)/2
+      self%rotation_time = time
+      self%enstrophy = enstrophy
+   end subroutine add_rotation
 
    ! A maximum of the energies in turn; the next one is sought once energy has fallen clearly from it.
    subroutine seek_peak(self, time)

@@ -1,7 +1,7 @@
 !> Energies of the particles and their budget.
 !!
-!! Source: eqs. 10-13. E_K + E_P + E_C + Q_alpha + Q_delta - W_s stays what it was at t = 0 in the semi-discrete system;
-!! what is left is the error of the time integration.
+!! Source: eqs. 10-13. E_K + E_P + E_C + Q_alpha + Q_delta - W_s - W_f stays what it was at t = 0 in the semi-discrete
+!! system; what is left is the error of the time integration.
 module energy
    use kinds, only: dp
    use model, only: model_t
@@ -16,7 +16,7 @@ module energy
    !> Energies per unit of the third dimension.
    type :: energies_t
       real(dp) :: kinetic = 0     !! E_K = sum m u**2/2
-      real(dp) :: potential = 0   !! E_P = sum m g y, 0 without gravity
+      real(dp) :: potential = 0   !! E_P = sum m (g y + w**2 |r - centre|**2/2)
       real(dp) :: elastic = 0     !! E_C, eq. 11
    contains
       procedure :: total
@@ -47,7 +47,7 @@ contains
          do i = (b - 1)*block_slots + 1, min(b*block_slots, p%n_own)
             if (p%id(i) == 0) cycle
             partial(1, b) = partial(1, b) + p%m(i)*(p%base%u(i)**2 + p%base%v(i)**2)/2
-            partial(2, b) = partial(2, b) + p%m(i)*model%gravity*p%base%y(i)
+            partial(2, b) = partial(2, b) + p%m(i)*potential_of(model, p%base%x(i), p%base%y(i))
             partial(3, b) = partial(3, b) + p%m(i)*elastic_energy(p%base%s(i)/model%rho0)
          end do
       end do
@@ -56,6 +56,15 @@ contains
       energies%potential = sum(partial(2, :))
       energies%elastic = model%c0**2*sum(partial(3, :))
    end subroutine measure_energies
+
+   ! Of a unit of mass: of gravity from y = 0, of the central force from its centre.
+   pure real(dp) function potential_of(model, x, y)
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: x, y
+
+      potential_of = model%gravity*y &
+                     + model%central_rate**2*((x - model%centre(1))**2 + (y - model%centre(2))**2)/2
+   end function potential_of
 
    !> ln(rho/rho0) + rho0/rho - 1 with rho/rho0 = 1 + e, eq. 11, without cancellation for small e.
    elemental real(dp) function elastic_energy(e) result(energy)

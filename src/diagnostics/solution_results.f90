@@ -72,7 +72,7 @@ contains
    function wave_results(errors, times, mode) result(results)
       type(solution_errors_t), intent(in) :: errors
       real(dp), intent(in) :: times(:), mode(:)
-      type(result_t) :: results(5)
+      type(result_t) :: results(6)
       type(oscillation_t) :: fit
       logical :: found
 
@@ -81,6 +81,7 @@ contains
          results = [result_t('standing_wave_frequency', fit%frequency, found), &
                     result_t('standing_wave_frequency_error', fit%frequency/exact%frequency - 1, found), &
                     result_t('standing_wave_decay_rate', fit%decay, found), &
+                    share('standing_wave_decay_over_first_order', fit%decay, exact%first_order_decay, found), &
                     share('standing_wave_decay_over_exact', fit%decay, exact%decay, found), &
                     share('standing_wave_decay_over_lattice', fit%decay, errors%lattice%wave%decay, found)]
       end associate

@@ -3,25 +3,17 @@ module key_reader
    use findings, only: findings_t, place_t
    use key_visitor, only: key_visitor_t, range_t
    use kinds, only: dp
+   use known_keys, only: described, idle_text, known_t, name_length, same_choice, suggest
+   use key_words, only: all_values, count_problem, free_text, shown_values, some_values, take_option
    use namelist_document, only: document_t, entry_t, value_t
-   use namelist_text, only: scan_words
    use text, only: lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
+   use text_cursor, only: letters
    implicit none
    private
 
    public :: key_reader_t
 
    integer, parameter :: most_names = 64    ! keys of one group, or groups
-   integer, parameter :: name_length = 32, meaning_length = 160
-
-   integer, parameter :: all_values = 1, some_values = 2, free_text = 3   ! what a key collects
-
-   !> A key or group that exists.
-   type :: known_t
-      character(name_length) :: name = ''
-      character(meaning_length) :: meaning = ''
-      logical :: missing = .false.          ! required, but not given
-   end type known_t
 
    !> Reads from `document`; what is wrong goes to `notes`.
    type, extends(key_visitor_t) :: key_reader_t
@@ -31,6 +23,9 @@ module key_reader
       integer, private :: group = 0         ! position of the group entered; 0: not in the document
       integer, private :: key_count = 0     ! keys of this group that were visited
       integer, private :: group_count = 0   ! groups that were announced
+      logical, private :: unsure = .false.  ! a choice of this group was refused: what goes with it is not known
+      type(known_t), private :: idle        ! the first key of this group that is given and has no effect
+      type(place_t), private :: idle_place
       type(known_t), private :: keys(most_names)
       type(known_t), private :: groups(most_names)
    contains
@@ -39,6 +34,7 @@ module key_reader
       procedure :: leave
       procedure :: finish
       procedure :: real_key
+      procedure :: real_or_word_key
       procedure :: vector_key
       procedure :: integer_key
       procedure :: text_key
@@ -63,7 +59,7 @@ contains
       integer :: number
 
       self%group_count = self%group_count + 1
-      self%groups(self%group_count) = known_t(name, meaning, required .and. self%document%count_of(name) == 0)
+      self%groups(self%group_count) = known_t(name, meaning, missing=required .and. self%document%count_of(name) == 0)
       if (repeatable) return
       first = self%document%place_of(name, 1, '')
       do number = 2, self%document%count_of(name)
@@ -81,6 +77,9 @@ contains
       self%group_name = name
       self%group = self%document%index_of(name, number)
       self%key_count = 0
+      self%unsure = .false.
+      self%idle = known_t()
+      call self%always()
    end subroutine enter
 
    !> Notes keys of the group that nobody asked for, and required ones that are not there.
@@ -101,8 +100,16 @@ contains
                                     '&'//group%name//" has no key '"//group%entries(i)%key//"'; "//hint)
          end do
          do i = 1, self%key_count
-            if (self%keys(i)%missing) call self%notes%mistake(group%place, group%name, '&'//group%name//' needs ' &
-                                                              //described(self%keys(i)))
+            associate (key => self%keys(i))
+               if (.not. key%missing .or. (key%condition /= '' .and. self%unsure)) cycle
+               if (same_choice(key%condition, self%idle%condition)) then
+                  ! One slip: the choice does not fit the keys.
+                  call self%notes%mistake(self%idle_place, group%name, idle_text(group%name, self%idle)//', and ' &
+                                          //trim(key%name)//' is missing')
+                  exit
+               end if
+               call self%notes%mistake(group%place, group%name, '&'//group%name//' needs '//described(key))
+            end associate
          end do
       end associate
       self%group = 0
@@ -132,34 +139,6 @@ contains
       end do
    end subroutine finish
 
-   !> Says what an unknown name may have meant; that one is then not called missing as well.
-   subroutine suggest(name, mark, known, hint, meant)
-      character(*), intent(in) :: name
-      character(*), intent(in) :: mark                   !! '&' for groups
-      type(known_t), intent(inout) :: known(:)
-      character(:), allocatable, intent(out) :: hint
-      character(:), allocatable, intent(out) :: meant    !! '' if nothing is like it
-
-      character(name_length) :: names(size(known))
-
-      names = known%name
-      meant = nearest_word(name, names)
-      if (meant == '') then
-         hint = 'dynsph --keys lists what there is'
-      else
-         hint = "did you mean '"//mark//meant//"'?"
-         where (known%name == meant) known%missing = .false.
-      end if
-   end subroutine suggest
-
-   !> Name and meaning of a key or group.
-   pure function described(known) result(line)
-      type(known_t), intent(in) :: known
-      character(:), allocatable :: line
-
-      line = trim(known%name)//': '//trim(known%meaning)
-   end function described
-
    !> Reads a real number.
    subroutine real_key(self, name, value, range, unit, meaning, required)
       class(key_reader_t), intent(inout) :: self
@@ -174,6 +153,32 @@ contains
       call self%vector_key(name, values, range, unit, meaning, required)
       value = values(1)
    end subroutine real_key
+
+   !> Reads a real number, or a word in its place.
+   subroutine real_or_word_key(self, name, value, word, chosen, range, unit, meaning)
+      class(key_reader_t), intent(inout) :: self
+      character(*), intent(in) :: name, unit, meaning
+      real(dp), intent(inout) :: value
+      character(*), intent(in) :: word
+      logical, intent(inout) :: chosen
+      type(range_t), intent(in) :: range
+
+      type(value_t) :: words(1)
+      type(place_t) :: places(1)
+      logical :: given(1)
+
+      call self%note_key(name, meaning)
+      call self%collect(name, words, places, given, all_values)
+      if (.not. given(1)) return
+      chosen = lower_case(words(1)%text) == word
+      if (chosen .and. words(1)%needs_quotes .and. .not. words(1)%quoted) then
+         call self%refuse(places(1), name, ': '//words(1)%text//' is text and needs quotes: '//quoted(word))
+      else if (.not. chosen .and. (words(1)%quoted .or. scan(words(1)%text, letters) == 1)) then
+         call self%refuse(places(1), name, ' = '//quoted(words(1)%text)//' is unknown; write a number or '//quoted(word))
+      else if (.not. chosen) then
+         call self%take_real(name, words(1), places(1), range, unit, value)
+      end if
+   end subroutine real_or_word_key
 
    !> Reads a few real numbers, all together or one by one.
    subroutine vector_key(self, name, value, range, unit, meaning, required)
@@ -344,6 +349,7 @@ contains
             return
          end if
       end do
+      self%unsure = .true.
       meant = nearest_word(word%text, choices)
       if (word%needs_quotes .and. .not. word%quoted) then
          call self%refuse(place, name, ': '//word%text//' is text and needs quotes: '//quoted(word%text))
@@ -365,9 +371,9 @@ contains
       logical, intent(in), optional :: required
 
       self%key_count = self%key_count + 1
-      self%keys(self%key_count) = known_t(name, meaning, .false.)
+      self%keys(self%key_count) = known_t(name, meaning, condition=self%condition)
       if (.not. present(required)) return
-      self%keys(self%key_count)%missing = required .and. self%document%entry_of(self%group, name) == 0
+      self%keys(self%key_count)%missing = required .and. self%active .and. self%document%entry_of(self%group, name) == 0
    end subroutine note_key
 
    !> Gathers the values given for a key in the group entered.
@@ -405,57 +411,15 @@ contains
             given(at) = .true.
          end do
       end do
+      if (any(given) .and. .not. self%active) then
+         at = findloc(given, .true., 1)
+         if (self%idle%name == '') then
+            self%idle = known_t(name, '', condition=self%condition)
+            self%idle_place = places(at)
+         end if
+         call self%notes%warning(places(at), idle_text(trim(self%group_name), known_t(name, '', condition=self%condition)))
+      end if
    end subroutine collect
-
-   !> Takes the text behind --set group.key= apart; free text without quotes is kept as it is.
-   subroutine take_option(item, style, notes, group)
-      type(entry_t), intent(inout) :: item
-      integer, intent(in) :: style
-      type(findings_t), intent(inout) :: notes
-      character(*), intent(in) :: group
-
-      if (style == free_text .and. scan(adjustl(item%raw), '"'//"'") /= 1) then
-         call item%add_value(trim(adjustl(item%raw)), .true.)
-      else
-         call scan_words(item%raw, item, notes, group)
-         if (allocated(item%values)) item%values%needs_quotes = .false.
-      end if
-   end subroutine take_option
-
-   !> Says what is wrong with the number of values, '' when nothing is.
-   pure function count_problem(element, length, n, fewer_allowed) result(problem)
-      integer, intent(in) :: element, length, n   !! element set or 0, values kept, values given
-      logical, intent(in) :: fewer_allowed
-      character(:), allocatable :: problem
-
-      problem = ''
-      if (element > 0 .and. length == 1) then
-         problem = '('//to_text(element)//') is set, but it is not an array'
-      else if (element > length) then
-         problem = '('//to_text(element)//') is set, but it has only '//to_text(length)//' values'
-      else if (element > 0 .and. n /= 1) then
-         problem = '('//to_text(element)//') takes 1 value, not '//to_text(n)
-      else if (element == 0 .and. fewer_allowed .and. n > length) then
-         problem = ' takes at most '//to_text(length)//' values, not '//to_text(n)
-      else if (element == 0 .and. .not. fewer_allowed .and. n /= length) then
-         problem = ' takes '//to_text(length)//trim(merge(' value ', ' values', length == 1))//', not '//to_text(n)
-      end if
-   end function count_problem
-
-   !> The first few values, for a message.
-   pure function shown_values(values) result(line)
-      type(value_t), intent(in) :: values(:)
-      character(:), allocatable :: line
-
-      integer, parameter :: shown = 4
-      integer :: i
-
-      line = values(1)%text
-      do i = 2, min(shown, size(values))
-         line = line//' | '//values(i)%text
-      end do
-      if (size(values) > shown) line = line//' ...'
-   end function shown_values
 
    !> Notes a mistake in a key of the group entered.
    subroutine refuse(self, place, name, message)

@@ -24,11 +24,16 @@ module key_visitor
 
    !> Visits groups and keys. A key's value on entry is its default.
    type, abstract :: key_visitor_t
+      logical :: active = .true.                !! the key visited next has an effect in this scene
+      character(:), allocatable :: condition    !! what it has an effect with, as in "shape = 'disc'"; '' for nothing
    contains
+      procedure :: only_with
+      procedure :: always
       procedure(announce_interface), deferred :: announce
       procedure(enter_interface), deferred :: enter
       procedure(leave_interface), deferred :: leave
       procedure(real_interface), deferred :: real_key
+      procedure(real_or_word_interface), deferred :: real_or_word_key
       procedure(vector_interface), deferred :: vector_key
       procedure(integer_interface), deferred :: integer_key
       procedure(text_interface), deferred :: text_key
@@ -69,6 +74,17 @@ module key_visitor
          type(range_t), intent(in) :: range
          logical, intent(in), optional :: required
       end subroutine real_interface
+
+      !> A real number, or a word in its place.
+      subroutine real_or_word_interface(self, name, value, word, chosen, range, unit, meaning)
+         import :: key_visitor_t, range_t, dp
+         class(key_visitor_t), intent(inout) :: self
+         character(*), intent(in) :: name, unit, meaning
+         real(dp), intent(inout) :: value
+         character(*), intent(in) :: word
+         logical, intent(inout) :: chosen      !! the word stands there, value means nothing
+         type(range_t), intent(in) :: range
+      end subroutine real_or_word_interface
 
       !> A few real numbers, all of them wanted.
       subroutine vector_interface(self, name, value, range, unit, meaning, required)
@@ -120,6 +136,23 @@ module key_visitor
    end interface
 
 contains
+
+   !> Says that the keys that follow have an effect only with something, and whether this scene has it.
+   subroutine only_with(self, condition, holds)
+      class(key_visitor_t), intent(inout) :: self
+      character(*), intent(in) :: condition   !! in words
+      logical, intent(in) :: holds
+
+      self%condition = condition
+      self%active = holds
+   end subroutine only_with
+
+   !> Says that the keys that follow have an effect in every scene.
+   subroutine always(self)
+      class(key_visitor_t), intent(inout) :: self
+
+      call self%only_with('', .true.)
+   end subroutine always
 
    !> Numbers above a bound.
    pure type(range_t) function above(lower)

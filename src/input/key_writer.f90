@@ -24,6 +24,7 @@ module key_writer
       procedure :: enter
       procedure :: leave
       procedure :: real_key
+      procedure :: real_or_word_key
       procedure :: vector_key
       procedure :: integer_key
       procedure :: text_key
@@ -63,6 +64,7 @@ contains
       character(*), intent(in) :: name
       integer, intent(in) :: number
 
+      call self%always()
       if (self%style == as_tables) return
       write (self%unit, '(a)') ''
       if (self%style == as_template .and. number == 1) write (self%unit, '(a)') '! '//self%remark
@@ -86,6 +88,22 @@ contains
 
       call self%write_key(name, to_text(value), unit, range%in_words(), meaning, required)
    end subroutine real_key
+
+   !> Writes a real number, or the word in its place.
+   subroutine real_or_word_key(self, name, value, word, chosen, range, unit, meaning)
+      class(key_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name, unit, meaning
+      real(dp), intent(inout) :: value
+      character(*), intent(in) :: word
+      logical, intent(inout) :: chosen
+      type(range_t), intent(in) :: range
+
+      character(:), allocatable :: shown
+
+      shown = to_text(value)
+      if (chosen) shown = quoted(word)
+      call self%write_key(name, shown, unit, range%in_words()//', or '//quoted(word), meaning)
+   end subroutine real_or_word_key
 
    !> Writes a few real numbers.
    subroutine vector_key(self, name, value, range, unit, meaning, required)
@@ -168,19 +186,23 @@ contains
       if (present(required)) must = required
       select case (self%style)
       case (as_echo)
-         write (self%unit, '(3x, 3a)') name, ' = ', value
+         if (self%active) write (self%unit, '(3x, 3a)') name, ' = ', value
       case (as_template)
          shown = name//' = '//value
          if (must) shown = name//' ='   ! left empty: what is not filled in is refused
+         if (.not. self%active) shown = '! '//shown
          if (len(shown) < value_width) shown = shown//repeat(' ', value_width - len(shown))
          column = range
          if (must) column = 'required; '//column
          if (unit /= '') column = '['//unit//'] '//column
+         if (self%condition /= '') column = column//'; only with '//self%condition
          write (self%unit, '(3x, a)') '! '//meaning, shown//'   ! '//column
       case default
          column = '`'//value//'`'
          if (must) column = '**required**'
-         write (self%unit, '(13a)') '| `', name, '` | ', column, ' | ', unit, ' | ', range, ' | ', escaped(meaning), ' |'
+         shown = escaped(meaning)
+         if (self%condition /= '') shown = shown//' Only with '//self%condition//'.'
+         write (self%unit, '(13a)') '| `', name, '` | ', column, ' | ', unit, ' | ', range, ' | ', shown, ' |'
       end select
    end subroutine write_key
 

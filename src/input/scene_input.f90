@@ -1,13 +1,14 @@
 !> Reads a scene, and writes the complete input, a template or the list of keys.
 module scene_input
+   use derived_settings, only: resolve_settings
    use errors, only: exit_files, exit_input, failure
    use key_reader, only: key_reader_t
    use key_writer, only: as_echo, as_tables, as_template, key_writer_t
    use namelist_text, only: scan_namelist
    use override_keys, only: apply_override
    use scene_keys, only: visit_keys
-   use settings, only: settings_t
-   use settings_check, only: check_settings, resolve_sound_speed
+   use settings, only: fluid_settings, settings_t
+   use settings_check, only: check_settings
    use text, only: to_text
    implicit none
    private
@@ -59,7 +60,7 @@ contains
       allocate (setup%probes(reader%document%count_of('probe')))
       call visit_keys(reader, setup)
       call reader%finish()
-      call resolve_sound_speed(reader%document, setup, reader%notes)
+      call resolve_settings(reader%document, setup, reader%notes)
       call check_settings(reader%document, setup, reader%notes)
       call reader%notes%warning_list(warnings)
       if (reader%notes%any_mistake()) call problem%raise(exit_input, reader%notes%mistake_text())
@@ -76,14 +77,28 @@ contains
       copy = setup
       writer%unit = unit
       writer%style = as_echo
-      write (unit, '(a)') '! The complete input of this run, with the defaults it used.'
-      if (copy%fluid%mach > 0) then
-         ! Both keys at once would contradict each other when this file is read.
-         write (unit, '(a)') '! sound_speed = '//to_text(copy%fluid%sound_speed)//' follows from mach and reference_speed.'
-         copy%fluid%sound_speed = 0
-      end if
+      write (unit, '(a)') '! The complete input of this run: all keys that have an effect, with the defaults it used.'
+      call leave_derived_out(unit, copy%fluid)
       call visit_keys(writer, copy)
    end subroutine write_echo
+
+   !> Takes back what is worked out from other keys: both at once would contradict each other when the echo is read.
+   subroutine leave_derived_out(unit, fluid)
+      integer, intent(in) :: unit
+      type(fluid_settings), intent(inout) :: fluid
+
+      if (fluid%find_reference_speed) then
+         write (unit, '(a)') '! sound_speed follows from mach once a coarse run has found reference_speed.'
+         fluid%sound_speed = 0
+      else if (fluid%mach > 0) then
+         write (unit, '(a)') '! sound_speed = '//to_text(fluid%sound_speed)//' follows from mach and reference_speed.'
+         fluid%sound_speed = 0
+      end if
+      if (fluid%reynolds > 0) then
+         write (unit, '(a)') '! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.'
+         fluid%viscosity = 0
+      end if
+   end subroutine leave_derived_out
 
    !> The same as one text, lines ended by new_line.
    function echo_text(setup) result(content)
@@ -114,6 +129,7 @@ contains
       writer%unit = unit
       writer%style = as_template
       write (unit, '(a)') '! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.', &
+         '! Keys behind a ! have an effect only with another choice, which is named.', &
          '! Units are SI or any other consistent set, such as d = g = density = 1.'
       call visit_defaults(writer)
    end subroutine write_template

@@ -23,6 +23,12 @@ module scene_keys
    character(choice_length), parameter, public :: solution_names(*) = [character(choice_length) :: 'none', 'hydrostatic', &
       'standing_wave', 'oscillating_drop', 'impact', 'taylor_green', 'acoustic_wave', 'couette', 'poiseuille', 'rotating_square']
 
+   !> Those that &exact amplitude and &exact waves belong to.
+   character(choice_length), parameter :: with_amplitude(*) = [character(choice_length) :: &
+      'standing_wave', 'oscillating_drop', 'taylor_green', 'acoustic_wave', 'rotating_square']
+   character(choice_length), parameter :: with_waves(*) = [character(choice_length) :: &
+      'standing_wave', 'taylor_green', 'acoustic_wave']
+
    !> What snapshots can hold.
    character(name_length), parameter :: field_names(*) = &
       [character(name_length) :: 'velocity', 'pressure', 'density', 'vorticity', 'alpha', 'delta', 'dissipation']
@@ -39,7 +45,7 @@ contains
       call keys%announce('scene', 'What the scene is called and how fine it is.', .true., .false.)
       call visit_scene(keys, setup%scene)
       call keys%announce('domain', 'The box the fluid moves in; its sides are walls or open.', .true., .false.)
-      call visit_domain(keys, setup%domain)
+      call visit_domain(keys, setup%domain, with_force=setup%fluid%gravity > 0.0_dp .or. setup%has_acceleration())
       call keys%announce('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.)
       call visit_fluid(keys, setup%fluid)
       call keys%announce('force', 'What acts on the fluid besides gravity.', .false., .false.)
@@ -55,7 +61,7 @@ contains
       call keys%announce('time', 'The time step and the end of the run.', .true., .false.)
       call visit_time(keys, setup%time)
       call keys%announce('output', "What is written and how often: '10 steps', '0.05 time' or 'never'.", .false., .false.)
-      call visit_output(keys, setup%output)
+      call visit_output(keys, setup%output, with_probes=size(setup%probes) > 0, with_exact=setup%exact%solution /= 'none')
       call keys%announce('probe', 'A pressure sensor on a wall.', .false., .true.)
       do i = 1, size(setup%probes)
          call visit_probe(keys, setup%probes(i), i)
@@ -77,9 +83,10 @@ contains
    end subroutine visit_scene
 
    !> Keys of &domain.
-   subroutine visit_domain(keys, domain)
+   subroutine visit_domain(keys, domain, with_force)
       class(key_visitor_t), intent(inout) :: keys
       type(domain_settings), intent(inout) :: domain
+      logical, intent(in) :: with_force   !! something makes hydrostatic pressure; not known yet when read
 
       call keys%enter('domain', 1)
       call keys%vector_key('lower', domain%lower, any_number(), 'm', 'Lower left corner of the box, x and y.')
@@ -91,6 +98,7 @@ contains
       call keys%choice_key('top', domain%top, side_choices, 'What the side at the largest y is.')
       call keys%vector_key('wall_speeds', domain%wall_speeds, any_number(), 'm/s', &
                            'Speeds of the no-slip sides left, right, bottom and top, along themselves.')
+      call keys%only_with('gravity or acceleration', with_force)
       call keys%choice_key('images', domain%images, [character(choice_length) :: 'hydrostatic', 'mirror'], &
                            'Density of the mirror images: with the hydrostatic difference, or copied.')
       call keys%leave()
@@ -106,14 +114,16 @@ contains
       call keys%real_key('gravity', fluid%gravity, at_least(0.0_dp), 'm/s2', 'Gravity, which acts along -y.')
       call keys%real_key('mach', fluid%mach, between(0.0_dp, largest_mach), '-', &
                          'Mach number of reference_speed; above 0.1 the fluid is too compressible. 0: not given.')
-      call keys%real_key('reference_speed', fluid%reference_speed, at_least(0.0_dp), 'm/s', &
-                         'Largest speed expected; sound_speed = reference_speed/mach. 0: not given.')
+      call keys%real_or_word_key('reference_speed', fluid%reference_speed, 'auto', fluid%find_reference_speed, &
+                                 at_least(0.0_dp), 'm/s', 'Largest speed expected; sound_speed = reference_speed/mach. '// &
+                                 "'auto': a coarse run finds it first. 0: not given.")
       call keys%real_key('sound_speed', fluid%sound_speed, at_least(0.0_dp), 'm/s', &
                          'Sound speed, instead of mach. 0: not given.')
       call keys%real_key('viscosity', fluid%viscosity, at_least(0.0_dp), 'Pa s', &
                          'Dynamic viscosity; acts in addition to alpha.')
       call keys%real_key('reynolds', fluid%reynolds, at_least(0.0_dp), '-', &
-                         'Reynolds number rho0 U d/mu instead of viscosity, U = sqrt(g d) or reference_speed. 0: not given.')
+                         'Reynolds number rho0 U d/mu instead of viscosity; U = sqrt(g d), without gravity reference_speed. '// &
+                         '0: not given.')
       call keys%leave()
    end subroutine visit_fluid
 
@@ -127,6 +137,7 @@ contains
                            'The same everywhere; its work is W_f in the energy table.')
       call keys%real_key('central_rate', force%central_rate, at_least(0.0_dp), '1/s', &
                          'w of a central field -w**2 (r - centre); it counts as potential energy.')
+      call keys%only_with('central_rate', force%central_rate > 0.0_dp)
       call keys%vector_key('centre', force%centre, any_number(), 'm', 'Centre of the central field, x and y.')
       call keys%leave()
    end subroutine visit_force
@@ -140,13 +151,18 @@ contains
       call keys%enter('body', number)
       call keys%choice_key('shape', body%shape, [character(choice_length) :: 'rectangle', 'disc'], &
                            'Shape: a rectangle from lower to upper, or a disc around centre.')
-      call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner of a rectangle, x and y.')
-      call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner of a rectangle, x and y.')
-      call keys%vector_key('centre', body%centre, any_number(), 'm', 'Centre of a disc, x and y.')
-      call keys%real_key('radius', body%radius, at_least(0.0_dp), 'm', 'Radius of a disc.')
-      call keys%vector_key('velocity', body%velocity, any_number(), 'm/s', 'Velocity at the start, x and y.')
+      call keys%only_with("shape = 'rectangle'", body%shape == 'rectangle')
+      call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner, x and y.', required=.true.)
+      call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner, x and y.', required=.true.)
+      call keys%only_with("shape = 'disc'", body%shape == 'disc')
+      call keys%vector_key('centre', body%centre, any_number(), 'm', 'Centre, x and y.')
+      call keys%real_key('radius', body%radius, above(0.0_dp), 'm', 'Radius.', required=.true.)
+      call keys%always()
       call keys%choice_key('flow', body%flow, [character(choice_length) :: 'uniform', 'exact'], &
-                           'Velocity at the start: velocity everywhere, or that of &exact solution.')
+                           'Velocity at the start: the same everywhere, or that of &exact solution.')
+      call keys%only_with("flow = 'uniform'", body%flow == 'uniform')
+      call keys%vector_key('velocity', body%velocity, any_number(), 'm/s', 'Velocity at the start, x and y.')
+      call keys%always()
       call keys%choice_key('pressure', body%pressure, &
                            [character(choice_length) :: 'hydrostatic', 'incompressible', 'zero', 'exact'], &
                            'Pressure at the start; incompressible: of a column that has just lost its gate.')
@@ -161,8 +177,10 @@ contains
       call keys%enter('model', 1)
       call keys%choice_key('diffusion', model%diffusion, [character(choice_length) :: 'constant', 'dynamic'], &
                            'How alpha and delta are chosen: the same everywhere, or from the rate of strain (eqs. 19-26).')
+      call keys%only_with("diffusion = 'constant'", model%diffusion == 'constant')
       call keys%real_key('alpha', model%alpha, at_least(0.0_dp), '-', 'Coefficient of the viscous term.')
       call keys%real_key('delta', model%delta, at_least(0.0_dp), '-', 'Coefficient of the density diffusion.')
+      call keys%only_with("diffusion = 'dynamic'", model%diffusion == 'dynamic')
       call keys%real_key('c_s', model%c_s, at_least(0.0_dp), '-', 'Smagorinsky constant C_S of the dynamic model.')
       call keys%real_key('c_delta', model%c_delta, at_least(0.0_dp), '-', &
                          'Constant C_delta of the density diffusion of the dynamic model.')
@@ -179,8 +197,11 @@ contains
 
       call keys%enter('exact', 1)
       call keys%choice_key('solution', exact%solution, solution_names, 'Which solution; docs/scenes.md says what each needs.')
+      call keys%only_with('a solution that has an amplitude', any(exact%solution == with_amplitude))
       call keys%real_key('amplitude', exact%amplitude, any_number(), 'of the solution', &
-                         'Its amplitude: wave height/depth, A0 [1/s], speed [m/s], rotation [1/s] or share of rho0.')
+                         'Wave height/depth, strain rate of the drop [1/s], speed [m/s], rotation [1/s] or share of rho0.', &
+                         required=.true.)
+      call keys%only_with('a solution that has waves', any(exact%solution == with_waves))
       call keys%integer_key('waves', exact%waves, at_least(1.0_dp), '-', 'Wavelengths in the box, of waves.')
       call keys%leave()
    end subroutine visit_exact
@@ -192,7 +213,8 @@ contains
 
       call keys%enter('time', 1)
       call keys%real_key('cfl', time%cfl, above(0.0_dp), '-', &
-                         'Time step as a multiple of h/(c0 + h max|pi|); stable up to min(2.49, 0.294/delta, 0.932/alpha).')
+                         'Time step as a multiple of h/(c0 + h max|pi|), at most min(2.49, 0.294/delta); viscosity and the '// &
+                         'dynamic model may lower it.')
       call keys%real_key('end_time', time%end_time, above(0.0_dp), 's', 'Time at which the run ends.', required=.true.)
       call keys%integer_key('max_steps', time%max_steps, at_least(0.0_dp), '-', &
                             'Number of steps after which the run ends early. 0: no limit.')
@@ -202,14 +224,18 @@ contains
    end subroutine visit_time
 
    !> Keys of &output.
-   subroutine visit_output(keys, output)
+   subroutine visit_output(keys, output, with_probes, with_exact)
       class(key_visitor_t), intent(inout) :: keys
       type(output_settings), intent(inout) :: output
+      logical, intent(in) :: with_probes, with_exact   !! the scene has some
 
       call keys%enter('output', 1)
       call keys%text_key('energy', output%energy, 'How often a line of the energy table is written.')
+      call keys%only_with('a &probe group', with_probes)
       call keys%text_key('probes', output%probes, 'How often a line of the probe table is written.')
-      call keys%text_key('errors', output%errors, 'How often a line of the error table is written, with &exact.')
+      call keys%only_with('an &exact solution', with_exact)
+      call keys%text_key('errors', output%errors, 'How often a line of the error table is written.')
+      call keys%always()
       call keys%text_key('snapshots', output%snapshots, 'How often all particles are written.')
       call keys%list_key('fields', output%fields, output%n_fields, field_names, 'What snapshots hold.')
       call keys%choice_key('precision', output%precision, [character(8) :: 'single', 'double'], &

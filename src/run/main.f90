@@ -14,6 +14,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
+   use text, only: to_text
    implicit none
 
    type(command_line_t) :: options
@@ -75,8 +76,9 @@ contains
          return
       end if
       call screen%open('', options%quiet, problem)
+      ! Each is a kind of its own, so that all are shown.
       do k = 1, size(warnings)
-         call screen%warn('input', trim(warnings(k)))
+         call screen%warn('input '//to_text(k), trim(warnings(k)))
       end do
       model = set_up_model(scene)
       call start_box(screen, scene, model, estimate(scene, model, count_particles(scene)))
@@ -102,7 +104,7 @@ contains
          return
       end if
       do k = 1, size(warnings)
-         call log%warn('input', trim(warnings(k)))
+         call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
       input_text = echo_text(scene)
       call write_whole_file(directory%file(input_name), input_text, problem)

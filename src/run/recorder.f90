@@ -1,11 +1,13 @@
 !> Measures and writes what is due: energies, probes, errors and snapshots.
 module recorder
-   use budget, only: budget_t, start_budget, update_budget
+   use budget, only: add_rotation, budget_t, start_budget, update_budget, works_t
    use build_info, only: git_id, version
    use cadence, only: cadence_t
-   use energy_columns, only: energy_names, energy_units
+   use columns, only: columns_t
+   use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
+   use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -15,7 +17,9 @@ module recorder
    use series, only: series_t
    use settings, only: settings_t
    use snapshot, only: snapshot_field, snapshot_head, write_snapshot
+   use snapshot_fields, only: fill_fields
    use table, only: table_t
+   use time_scale, only: new_time_scale, time_scale_t
    use time_step, only: step_t
    implicit none
    private
@@ -31,7 +35,8 @@ module recorder
       type(error_table_t) :: errors
       type(sensor_t), allocatable :: sensors(:)
       type(snapshot_head) :: head
-      real(dp) :: time_unit = 1        !! sqrt(d/g), or d/U_ref without gravity
+      type(time_scale_t) :: scale
+      type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks for them
       real(dp) :: time_before = 0      !! of the step before
    contains
       procedure :: start
@@ -51,61 +56,42 @@ contains
       type(particles_t), intent(in) :: p       !! base state at t = 0
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
-      character(len(energy_units)) :: units(size(energy_units))
       character(:), allocatable :: message
 
       ! The cadences' texts were checked with the input.
       call self%when_energy%parse(trim(scene%output%energy), message)
       call self%when_probes%parse(trim(scene%output%probes), message)
       call self%when_snapshot%parse(trim(scene%output%snapshots), message)
-      self%time_unit = time_unit(scene)
+      self%scale = new_time_scale(scene)
       call start_budget(self%budget, model, p, scene%domain%upper(1) - scene%domain%lower(1))
       self%head = snapshot_head(title=trim(scene%scene%title), version=version, git_id=git_id, input_text=input_text, &
                                 reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
                                 density=model%rho0, gravity=model%gravity)
-      units = energy_units
-      units(2) = scaled_unit(scene)
-      if (.not. self%when_energy%is_never()) call self%energy_table%create(directory%file(energy_name), &
-                                          head_lines(scene, self%budget), energy_names, units, problem)
+      if (self%when_energy%is_never()) then
+         self%budget%has%rotation = .false.   ! no integral over time without its values
+      else
+         call start_energies(self, scene, directory, problem)
+      end if
       if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
          call start_probes(self, scene, model, directory, problem)
-      call self%errors%start(scene, model, p, directory%file(errors_name), self%time_unit, scaled_unit(scene), problem)
+      call self%errors%start(scene, model, p, directory%file(errors_name), self%scale, problem)
    end subroutine start
 
-   ! The unit of scaled times, sqrt(d/g).
-   pure real(dp) function time_unit(scene)
+   subroutine start_energies(self, scene, directory, problem)
+      class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
-
-      associate (d => scene%scene%reference_length, fluid => scene%fluid)
-         time_unit = 1
-         if (fluid%gravity > 0) then
-            time_unit = sqrt(d/fluid%gravity)
-         else if (fluid%reference_speed > 0) then
-            time_unit = d/fluid%reference_speed
-         end if
-      end associate
-   end function time_unit
-
-   ! How time is scaled.
-   pure function scaled_unit(scene) result(unit)
-      type(settings_t), intent(in) :: scene
-      character(16) :: unit
-
-      unit = 'time'
-      if (scene%fluid%reference_speed > 0) unit = 't U/d'
-      if (scene%fluid%gravity > 0) unit = 't sqrt(g/d)'
-   end function scaled_unit
-
-   function head_lines(scene, budget) result(lines)
-      type(settings_t), intent(in) :: scene
-      type(budget_t), intent(in) :: budget
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem
+      type(columns_t) :: row
+      type(step_t) :: at_start
       character(200) :: lines(3)
 
+      row = energy_row(self%budget, self%gradients, at_start, self%scale)
       lines(1) = 'title: '//scene%scene%title
-      write (lines(2), '(a, es23.16)') 'dE_Mtot: ', budget%normaliser
-      lines(3) = 'normalised by dE_Mtot = E_M(0) - E_M(at rest in the tank)'
-      if (.not. budget%has_rest) lines(3) = 'no tank to rest in: normalised by E_K(0) + E_C(0) + E_P(0) above the lowest particle'
-   end function head_lines
+      write (lines(2), '(a, es23.16)') 'dE_Mtot: ', self%budget%normaliser
+      lines(3) = 'normalised by dE_Mtot = '//self%budget%scale
+      call self%energy_table%create(directory%file(energy_name), lines, row%names, row%units, problem)
+   end subroutine start_energies
 
    subroutine start_probes(self, scene, model, directory, problem)
       class(recorder_t), intent(inout) :: self
@@ -128,7 +114,7 @@ contains
       end do
       call self%probe_table%create(directory%file(probes_name), lines, &
                                    [character(32) :: 'time', 'time_scaled', scene%probes%name], &
-                                   [character(32) :: 'time', scaled_unit(scene), spread('pressure', 1, size(scene%probes))], &
+                                   [character(32) :: 'time', self%scale%name, spread('pressure', 1, size(scene%probes))], &
                                    problem)
    end subroutine start_probes
 
@@ -145,15 +131,12 @@ contains
       logical, intent(in) :: last            !! the run ends here
       type(failure), intent(inout) :: problem
 
-      if (last .or. due(self%when_energy)) then
-         call update_budget(self%budget, model, p, run%time, run%work_alpha, run%work_delta, run%work_walls)
-         if (self%energy_table%is_open()) call self%energy_table%row(energy_row(self, run), problem)
-      end if
+      if (last .or. due(self%when_energy)) call record_energies(self, model, p, near, run, problem)
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
       end if
       call self%errors%record(model, p, run%step, run%time, self%time_before, last, problem)
-      if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, run, directory, problem)
+      if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, near, run, directory, problem)
       self%time_before = run%time
 
    contains
@@ -166,20 +149,27 @@ contains
 
    end subroutine record
 
-   ! The columns of `energy_columns`.
-   pure function energy_row(self, run) result(row)
-      class(recorder_t), intent(in) :: self
+   subroutine record_energies(self, model, p, near, run, problem)
+      class(recorder_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
-      real(dp) :: row(size(energy_names))
+      type(failure), intent(inout) :: problem
+      type(gradient_fields_t) :: fields
+      type(columns_t) :: row
 
-      associate (b => self%budget, now => self%budget%now, rest => self%budget%rest, de => self%budget%normaliser)
-         row = [run%time, run%time/self%time_unit, real(run%step, dp), run%dt, &
-                now%kinetic, now%potential, now%elastic, now%total(), b%q_alpha, b%q_delta, b%w_s, &
-                now%kinetic/de, (now%potential - rest%potential)/de, (now%elastic - rest%elastic)/de, &
-                (now%total() - rest%total())/de, b%q_alpha/de, b%q_delta/de, b%w_s/de, b%balance_error, &
-                run%mach, run%variation, run%speed]
-      end associate
-   end function energy_row
+      call update_budget(self%budget, model, p, run%time, &
+                         works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force))
+      if (.not. self%energy_table%is_open()) return
+      if (self%budget%has%rotation .or. self%budget%has%eddies) then
+         call measure_gradients(model, p, near, fields)
+         call sum_up(model, p, fields, self%gradients)
+         call add_rotation(self%budget, model, run%time, self%gradients%enstrophy)
+      end if
+      row = energy_row(self%budget, self%gradients, run, self%scale)
+      call self%energy_table%row(row%values, problem)
+   end subroutine record_energies
 
    pure function probe_row(self, model, p, near, time) result(row)
       class(recorder_t), intent(in) :: self
@@ -191,34 +181,33 @@ contains
       integer :: k
 
       row(1) = time
-      row(2) = time/self%time_unit
+      row(2) = time/self%scale%unit
       do k = 1, size(self%sensors)
          row(k + 2) = measure_sensor(model, p, near, self%sensors(k))
       end do
    end function probe_row
 
    !> Writes the base state as the next snapshot, particles in the order of their numbers.
-   subroutine save_snapshot(self, scene, model, p, run, directory, problem)
+   subroutine save_snapshot(self, scene, model, p, near, run, directory, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
       type(snapshot_field), allocatable :: fields(:)
       character(:), allocatable :: path
       integer, allocatable :: slot(:), id(:)
-      integer :: i, k
+      integer :: i
 
-      allocate (slot(p%n), fields(scene%output%n_fields))
+      allocate (slot(p%n))
       do i = 1, p%n_own
          if (p%id(i) > 0) slot(p%id(i)) = i
       end do
       id = [(i, i=1, p%n)]
-      do k = 1, size(fields)
-         call fill_field(fields(k), trim(scene%output%fields(k)), model, p, slot)
-      end do
+      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, slot, fields)
       self%head%time = run%time
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
@@ -226,33 +215,6 @@ contains
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), path(index(path, '/', back=.true.) + 1:), run%time, problem)
    end subroutine save_snapshot
-
-   ! A field by its name in &output fields.
-   subroutine fill_field(field, name, model, p, slot)
-      type(snapshot_field), intent(inout) :: field
-      character(*), intent(in) :: name
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      integer, intent(in) :: slot(:)   !! (n) slot of each particle
-
-      field%name = name
-      select case (name)
-      case ('velocity')
-         field%unit = 'length/time'
-         field%long_name = 'velocity of the particle'
-         allocate (field%vectors(size(slot), 2))
-         field%vectors(:, 1) = p%base%u(slot)
-         field%vectors(:, 2) = p%base%v(slot)
-      case ('pressure')
-         field%unit = 'mass/(length time^2)'
-         field%long_name = 'pressure, c0^2 (rho - rho0)'
-         field%values = model%c0**2*p%base%s(slot)
-      case ('density')
-         field%unit = 'mass/length^3'
-         field%long_name = 'density'
-         field%values = model%rho0 + p%base%s(slot)
-      end select
-   end subroutine fill_field
 
    !> Closes the tables.
    subroutine finish(self, problem)

@@ -68,8 +68,9 @@ contains
          lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
                     //', h = 2 dx = '//short(model%kernel%h)
          lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
-         lines(3) = 'diffusion     constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
+         lines(3) = 'diffusion     '//diffusion_text(scene, model)
          lines(4) = 'Reynolds      none: alpha = 0'
+         if (model%dynamic) lines(4) = 'Reynolds      none: viscosity = 0'
          if (model%alpha > 0) lines(4) = 'Reynolds      Re = '//short(8*speed*d/(model%alpha*model%kernel%h*model%c0)) &
             //', Re_dx = '//short(8*speed*model%dx/(model%alpha*model%kernel%h*model%c0)) &
             //' (U = '//short(speed)//')'
@@ -102,6 +103,20 @@ contains
       if (.not. speed > 0) speed = scene%fluid%reference_speed
    end function reference_speed
 
+   function diffusion_text(scene, model) result(words)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+
+      if (.not. model%dynamic) then
+         words = 'constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
+      else
+         words = 'dynamic: C_S = '//short(scene%model%c_s)//', C_delta = '//short(scene%model%c_delta)//', '
+         if (scene%model%limiter == 'strain_rate') words = words//'||D|| clipped so that '
+         words = words//'alpha_i, delta_i <= '//short(model%limit)//'; alpha = '//short(model%alpha)
+      end if
+   end function diffusion_text
+
    function used(scene, model) result(words)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -109,9 +124,16 @@ contains
 
       words = 'RK4'
       if (model%gravity > 0) words = words//', gravity'
-      if (any(model%walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//walls_text(model)//')'
-      if (model%alpha > 0) words = words//', viscosity'
-      if (model%delta > 0) words = words//', density diffusion'
+      if (model%has_force()) words = words//', uniform force'
+      if (model%central_rate > 0) words = words//', central force'
+      associate (walls => model%walls)
+         if (any(walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//sides_text(walls%present)//')'
+         if (any(walls%no_slip)) words = words//', no slip ('//sides_text(walls%no_slip)//')'
+         if (any(walls%periodic)) words = words//', periodic ('//sides_text(walls%periodic([1, 1, 2, 2]))//')'
+      end associate
+      if (model%dynamic) words = words//', strain rate'
+      if (model%alpha > 0 .or. model%dynamic) words = words//', viscosity'
+      if (model%delta > 0 .or. model%dynamic) words = words//', density diffusion'
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
    end function used
 
@@ -123,24 +145,26 @@ contains
       words = ''
       if (.not. model%gravity > 0) words = words//', gravity'
       if (.not. any(model%walls%present)) words = words//', walls'
-      if (.not. model%alpha > 0) words = words//', viscosity'
-      if (.not. model%delta > 0) words = words//', density diffusion (no gradients, no second pass)'
+      if (.not. (any(model%walls%present) .or. any(model%walls%periodic))) words = words//', images'
+      if (.not. model%dynamic) words = words//', strain rate'
+      if (.not. (model%alpha > 0 .or. model%dynamic)) words = words//', viscosity'
+      if (.not. (model%delta > 0 .or. model%dynamic)) words = words//', density diffusion (no gradients, no second pass)'
       if (size(scene%probes) == 0) words = words//', probes'
       if (words == '') words = ', nothing'
       words = words(3:)
    end function unused
 
-   function walls_text(model) result(words)
-      type(model_t), intent(in) :: model
+   function sides_text(sides) result(words)
+      logical, intent(in) :: sides(4)
       character(:), allocatable :: words
 
       words = ''
-      if (model%walls%present(left_wall)) words = words//' left'
-      if (model%walls%present(right_wall)) words = words//' right'
-      if (model%walls%present(bottom_wall)) words = words//' bottom'
-      if (model%walls%present(top_wall)) words = words//' top'
+      if (sides(left_wall)) words = words//' left'
+      if (sides(right_wall)) words = words//' right'
+      if (sides(bottom_wall)) words = words//' bottom'
+      if (sides(top_wall)) words = words//' top'
       words = words(2:)
-   end function walls_text
+   end function sides_text
 
    !> Time by phase, budget and files.
    subroutine closing_table(log, timers, seconds, budget, run, path)
@@ -152,10 +176,7 @@ contains
       character(*), intent(in) :: path      !! result directory
       character(160) :: lines(4)
 
-      lines = [character(160) :: &
-               'Q_alpha '//short(budget%q_alpha/budget%normaliser)//', Q_delta '//short(budget%q_delta/budget%normaliser) &
-               //', Q_total '//short((budget%q_alpha + budget%q_delta)/budget%normaliser)//' of dE_Mtot', &
-               'wall work '//short(budget%w_s/budget%normaliser)//', largest balance error '//short(budget%largest_error), &
+      lines = [character(160) :: dissipation_text(budget), works_text(budget), &
                'largest Ma '//short(run%largest_mach)//', largest |rho - rho0|/rho0 '//short(run%largest_variation), &
                to_text(run%crossings)//' wall crossings, '//to_text(run%singular)//' particle-steps without gradient, ' &
                //to_text(run%repeated)//' steps repeated']
@@ -163,6 +184,31 @@ contains
       call log%box('Wall time', timers%table(seconds))
       call log%line('results in '//path//', what each file is: docs/files.md')
    end subroutine closing_table
+
+   function dissipation_text(budget) result(words)
+      type(budget_t), intent(in) :: budget
+      character(:), allocatable :: words
+
+      associate (b => budget, has => budget%has)
+         words = ''
+         if (has%viscosity) words = words//', Q_alpha '//short(b%q_alpha/b%normaliser)
+         if (has%diffusion) words = words//', Q_delta '//short(b%q_delta/b%normaliser)
+         if (has%viscosity .and. has%diffusion) words = words//', Q_total '//short((b%q_alpha + b%q_delta)/b%normaliser)
+         words = words//' of dE_Mtot'
+         if (.not. (has%viscosity .or. has%diffusion)) words = ', nothing dissipates'
+      end associate
+      words = words(3:)
+   end function dissipation_text
+
+   function works_text(budget) result(words)
+      type(budget_t), intent(in) :: budget
+      character(:), allocatable :: words
+
+      words = ''
+      if (budget%has%walls) words = words//'wall work '//short(budget%w_s/budget%normaliser)//', '
+      if (budget%has%force) words = words//'work of the force '//short(budget%w_f/budget%normaliser)//', '
+      words = words//'largest balance error '//short(budget%largest_error)
+   end function works_text
 
    !> The file of `key = value` lines.
    subroutine write_summary_file(path, status, reason, particles, run, seconds, recorder, problem)
@@ -176,7 +222,6 @@ contains
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
-      integer :: k
 
       rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
       call file%add('status', status)
@@ -188,25 +233,39 @@ contains
       call file%add('run_seconds', seconds)
       call file%add('particle_steps_per_second', rate)
       call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/max(rate, tiny(1.0_dp)))
-      associate (budget => recorder%budget)
-         call file%add('dE_Mtot', budget%normaliser)
-         call file%add('energy_balance_error', budget%largest_error)
-         call file%add('wall_work', budget%w_s/budget%normaliser)
-         call file%add('Q_alpha', budget%q_alpha/budget%normaliser)
-         call file%add('Q_delta', budget%q_delta/budget%normaliser)
-         call file%add('Q_total', (budget%q_alpha + budget%q_delta)/budget%normaliser)
-         call file%add('max_density_variation', run%largest_variation)
-         call file%add('max_mach', run%largest_mach)
-         call file%add('wall_crossings', run%crossings)
-         call file%add('singular_gradients', run%singular)
-         call file%add('steps_repeated', run%repeated)
-         do k = 1, size(peak_names)
-            if (budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), 'none')
-            if (.not. budget%peak_time(k) < 0) call file%add(trim(peak_names(k)), budget%peak_time(k))
-         end do
-      end associate
+      call summarise_budget(recorder%budget, file)
+      call file%add('max_density_variation', run%largest_variation)
+      call file%add('max_mach', run%largest_mach)
+      call file%add('wall_crossings', run%crossings)
+      call file%add('singular_gradients', run%singular)
+      call file%add('steps_repeated', run%repeated)
+      call file%add('steps_limited', run%limited)
       call recorder%errors%add_to(file)
       call file%write(path, problem)
    end subroutine write_summary_file
+
+   ! What is not in the budget's terms is left out, as in energy.dat.
+   subroutine summarise_budget(budget, file)
+      type(budget_t), intent(in) :: budget
+      type(summary_t), intent(inout) :: file
+      integer :: k
+
+      associate (b => budget, has => budget%has, de => budget%normaliser)
+         call file%add('dE_Mtot', de)
+         call file%add('energy_balance_error', b%largest_error)
+         if (has%walls) call file%add('wall_work', b%w_s/de)
+         if (has%force) call file%add('force_work', b%w_f/de)
+         if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
+         if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
+         if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)
+         if (has%rotation) call file%add('Q_omega', b%q_omega/de)
+         do k = 1, size(peak_names)
+            ! The maxima come in turn: without potential energy there is only the first.
+            if (k > 1 .and. .not. has%potential) exit
+            if (b%peak_time(k) < 0) call file%add(trim(peak_names(k)), 'none')
+            if (.not. b%peak_time(k) < 0) call file%add(trim(peak_names(k)), b%peak_time(k))
+         end do
+      end associate
+   end subroutine summarise_budget
 
 end module report

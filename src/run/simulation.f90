@@ -117,7 +117,8 @@ contains
             status = 'failed: numerics'
             ! The state before the step is still there. A second failure would hide the first.
             run = before
-            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, run, directory, ignored)
+            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, near, run, directory, &
+                                                                                          ignored)
             call recorder%record(scene, model, p, near, run, directory, .true., ignored)
             exit
          end if

@@ -9,7 +9,7 @@ set terminal pngcairo size 1200,900 font font
 set output dir.'/dissipation.png'
 set multiplot
 set key inside left top Left reverse box linecolor rgb '#d0d0d0' opaque height 0.3 width -1
-set lmargin at screen 0.085
+set lmargin at screen 0.1
 set rmargin at screen 0.965
 set xrange [0:*]
 time = 'time_scaled'
@@ -20,16 +20,25 @@ set title head_text(data, 'title') noenhanced font 'DejaVu Sans,14'
 set ylabel 'energy / ΔE_M^{tot}'
 set format x ''
 set yrange [*<0:*]
-plot data using (column(time)):(column("Q_alpha/dE") + column("Q_delta/dE")) with lines linetype 7 title 'dissipated, Q = Q_α + Q_δ', \
-     data using (column(time)):(column("Q_alpha/dE")) with lines linetype 2 title 'by viscosity, Q_α', \
-     data using (column(time)):(column("Q_delta/dE")) with lines linetype 1 title 'by density diffusion, Q_δ', \
-     data using (column(time)):(column("W_s/dE")) with lines linetype 5 title 'work of the walls, W_s'
+curves = curve(data, 'Q_alpha/dE', 2, 'by viscosity, Q_α').curve(data, 'Q_delta/dE', 1, 'by density diffusion, Q_δ') \
+         .curve(data, 'W_s/dE', 5, 'work of the walls, W_s').curve(data, 'W_f/dE', 6, 'work of the force, W_f')
+# Where nothing dissipates and nothing works on the fluid, show what it has.
+if (curves eq '') {
+   curves = curve(data, '(E_M-E_M_rest)/dE', 7, 'mechanical energy, E_M − E_M^{rest}')
+   set key bottom
+}
+if (has(data, 'Q_alpha/dE') && has(data, 'Q_delta/dE')) {
+   plot data using (column(time)):(column("Q_alpha/dE") + column("Q_delta/dE")) with lines linetype 7 \
+           title 'dissipated, Q = Q_α + Q_δ', @curves
+} else {
+   plot @curves
+}
 
 set tmargin at screen 0.39
 set bmargin at screen 0.08
 unset title
 set format x '%g'
-set xlabel scaled_time
+set xlabel scaled_time_in(data)
 set ylabel '|error| / ΔE_M^{tot}'
 set logscale y
 set format y '10^{%L}'

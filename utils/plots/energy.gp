@@ -8,7 +8,7 @@ data = dir.'/energy.dat'
 set terminal pngcairo size 1200,700 font font
 set output dir.'/energy.png'
 set title head_text(data, 'title') noenhanced font 'DejaVu Sans,14'
-set xlabel scaled_time
+set xlabel scaled_time_in(data)
 set ylabel 'energy / ΔE_M^{tot}'
 set xrange [0:*]
 set yrange [*<0:*]
@@ -16,8 +16,7 @@ set key inside right top box linecolor rgb '#d0d0d0' opaque height 0.3 width -1
 set rmargin 4
 set xzeroaxis linetype 1 linecolor rgb '#a0a0a0'
 
-time = 'time_scaled'
-plot data using (column(time)):(column("(E_M-E_M_rest)/dE")) with lines linetype 7 title 'mechanical, E_M − E_M^{rest}', \
-     data using (column(time)):(column("E_K/dE")) with lines linetype 2 title 'kinetic, E_K', \
-     data using (column(time)):(column("(E_P-E_P_rest)/dE")) with lines linetype 1 title 'potential, E_P − E_P^{rest}', \
-     data using (column(time)):(column("(E_C-E_C_rest)/dE")) with lines linetype 3 title 'elastic, E_C − E_C^{rest}'
+eval 'plot '.curve(data, '(E_M-E_M_rest)/dE', 7, 'mechanical, E_M − E_M^{rest}') \
+            .curve(data, 'E_K/dE', 2, 'kinetic, E_K') \
+            .curve(data, '(E_P-E_P_rest)/dE', 1, 'potential, E_P − E_P^{rest}') \
+            .curve(data, '(E_C-E_C_rest)/dE', 3, 'elastic, E_C − E_C^{rest}')

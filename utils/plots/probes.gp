@@ -12,7 +12,7 @@ unit = system("sed -n 's/^# *3  [^ ]* \\[\\(.*\\)\\]$/\\1/p' '".data."'")
 set terminal pngcairo size 1200,700 font font
 set output dir.'/probes.png'
 set title head_text(data, 'title') noenhanced font 'DejaVu Sans,14'
-set xlabel scaled_time
+set xlabel scaled_time_in(data)
 set ylabel 'pressure ['.unit.']' noenhanced
 set xrange [0:*]
 set xzeroaxis linetype 1 linecolor rgb '#a0a0a0'

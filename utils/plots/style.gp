@@ -32,4 +32,11 @@ set palette defined (0.00 '#440154', 0.125 '#472d7b', 0.25 '#3b528b', 0.375 '#2c
 
 # The value after '# key: ' in a file's head, '' when it is not there.
 head_text(file, key) = system("sed -n -e '/^[^#]/q' -e 's/^# ".key.": *//p' '".file."'")
-scaled_time = 't √(g/d)'
+# How time is scaled in a table: the unit of its column time_scaled.
+scaled_time_in(file) = system("sed -n -e '/^[^#]/q' -e 's/^# .* time_scaled \\[\\(.*\\)\\]$/\\1/p' '".file."' | sed -e 's/sqrt/√/' -e 's/ w$/ ω/'")
+# Whether a table has a column; a scene has only those that it has something to say about.
+column_names(file) = system("sed -n '/^[^#]/{p;q}' '".file."'")
+has(file, name) = (sum [k=1:words(column_names(file))] (word(column_names(file), k) eq name)) > 0
+# Part of a plot command for one column against time, with a comma behind it; '' where the table has no such column.
+curve(file, name, style, label) = has(file, name) \
+   ? sprintf("'%s' using (column('time_scaled')):(column('%s')) with lines linetype %d title '%s', ", file, name, style, label) : ''

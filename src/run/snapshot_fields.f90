@@ -1,0 +1,105 @@
+!> The arrays of a snapshot, by their names in &output fields.
+module snapshot_fields
+   use eddy, only: eddy_coefficients
+   use gradient_fields, only: gradient_fields_t, measure_gradients
+   use kinds, only: dp
+   use model, only: model_t
+   use neighbours, only: neighbours_t
+   use particles, only: particles_t
+   use snapshot, only: snapshot_field
+   implicit none
+   private
+
+   public :: fill_fields
+
+contains
+
+   !> Fills the fields named, in the order of the particles' numbers.
+   subroutine fill_fields(names, model, p, near, slot, fields)
+      character(*), intent(in) :: names(:)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: slot(:)              !! (n) slot of each particle
+      type(snapshot_field), allocatable, intent(out) :: fields(:)   !! one for each name
+      type(gradient_fields_t) :: gradients
+      integer :: k
+
+      allocate (fields(size(names)))
+      if (need_gradients(names, model)) call measure_gradients(model, p, near, gradients)
+      do k = 1, size(names)
+         fields(k)%name = trim(names(k))
+         select case (names(k))
+         case ('vorticity')
+            fields(k)%unit = '1/time'
+            fields(k)%long_name = 'vorticity dv/dx - du/dy'
+            fields(k)%values = gradients%vorticity(slot)
+         case ('alpha', 'delta')
+            call fill_coefficient(fields(k), model, gradients, slot)
+         case default
+            call fill_state(fields(k), model, p, slot)
+         end select
+      end do
+   end subroutine fill_fields
+
+   ! Whether a field takes the pass over all pairs.
+   pure logical function need_gradients(names, model)
+      character(*), intent(in) :: names(:)
+      type(model_t), intent(in) :: model
+
+      need_gradients = any(names == 'vorticity') .or. (model%dynamic .and. any(names == 'alpha' .or. names == 'delta'))
+   end function need_gradients
+
+   ! A field that is there with the particles.
+   subroutine fill_state(field, model, p, slot)
+      type(snapshot_field), intent(inout) :: field   !! its name is set
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: slot(:)
+
+      select case (field%name)
+      case ('velocity')
+         field%unit = 'length/time'
+         field%long_name = 'velocity of the particle'
+         allocate (field%vectors(size(slot), 2))
+         field%vectors(:, 1) = p%base%u(slot)
+         field%vectors(:, 2) = p%base%v(slot)
+      case ('pressure')
+         field%unit = 'mass/(length time^2)'
+         field%long_name = 'pressure, c0^2 (rho - rho0)'
+         field%values = model%c0**2*p%base%s(slot)
+      case ('density')
+         field%unit = 'mass/length^3'
+         field%long_name = 'density'
+         field%values = model%rho0 + p%base%s(slot)
+      case ('dissipation')
+         field%unit = 'energy/width'
+         field%long_name = 'energy dissipated by the particle since the start'
+         field%values = p%dissipated(slot)
+      end select
+   end subroutine fill_state
+
+   ! alpha_i or delta_i; of constant coefficients the one that acts everywhere.
+   subroutine fill_coefficient(field, model, gradients, slot)
+      type(snapshot_field), intent(inout) :: field   !! its name is set
+      type(model_t), intent(in) :: model
+      type(gradient_fields_t), intent(in) :: gradients   !! measured if the model is dynamic
+      integer, intent(in) :: slot(:)
+      real(dp), allocatable :: alpha(:), delta(:)
+
+      field%unit = '-'
+      allocate (alpha(size(slot)), source=model%alpha)
+      allocate (delta(size(slot)), source=model%delta)
+      if (model%dynamic) call eddy_coefficients(model, gradients%strain(slot), alpha, delta)
+      if (field%name == 'alpha') then
+         field%long_name = 'coefficient of the viscous term, viscosity included'
+         if (model%dynamic) field%long_name = 'alpha_i of the dynamic model, viscosity not included'
+         call move_alloc(alpha, field%values)
+      else
+         field%long_name = 'coefficient of the density diffusion'
+         if (model%dynamic) field%long_name = 'delta_i of the dynamic model'
+         call move_alloc(delta, field%values)
+      end if
+   end subroutine fill_coefficient
+
+end module snapshot_fields
