@@ -13,6 +13,7 @@ module result_directory
    character(*), parameter, public :: input_name = 'input_used.nml'
    character(*), parameter, public :: energy_name = 'energy.dat'
    character(*), parameter, public :: probes_name = 'probes.dat'
+   character(*), parameter, public :: errors_name = 'errors.dat'
    character(*), parameter, public :: summary_name = 'summary.txt'
    character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
 
@@ -21,7 +22,7 @@ module result_directory
 
    !> Everything dynsph writes and may therefore delete, as shell patterns.
    character(*), parameter :: own_files(*) = [character(64) :: log_name, input_name, energy_name, probes_name, summary_name, &
-      series_name, any_snapshot, &
+      errors_name, series_name, any_snapshot, &
       input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial']
 
    !> What shows that a directory holds a result.

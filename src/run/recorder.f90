@@ -1,10 +1,11 @@
-!> Measures and writes what is due: energies, probes and snapshots.
+!> Measures and writes what is due: energies, probes, errors and snapshots.
 module recorder
    use budget, only: add_rotation, budget_t, start_budget, update_budget, works_t
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use columns, only: columns_t
    use energy_columns, only: energy_row
+   use error_table, only: error_table_t
    use errors, only: failure
    use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
    use kinds, only: dp
@@ -12,7 +13,7 @@ module recorder
    use neighbours, only: neighbours_t
    use particles, only: particles_t
    use probes, only: measure_sensor, new_sensor, sensor_t
-   use result_directory, only: energy_name, probes_name, result_directory_t, series_name
+   use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name
    use series, only: series_t
    use settings, only: settings_t
    use snapshot, only: snapshot_field, snapshot_head, write_snapshot
@@ -31,6 +32,7 @@ module recorder
       type(series_t) :: series
       type(cadence_t) :: when_energy, when_probes, when_snapshot
       type(table_t) :: energy_table, probe_table
+      type(error_table_t) :: errors
       type(sensor_t), allocatable :: sensors(:)
       type(snapshot_head) :: head
       type(time_scale_t) :: scale
@@ -72,6 +74,7 @@ contains
       end if
       if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
          call start_probes(self, scene, model, directory, problem)
+      call self%errors%start(scene, model, p, directory%file(errors_name), self%scale%unit, self%scale%name, problem)
    end subroutine start
 
    subroutine start_energies(self, scene, directory, problem)
@@ -132,6 +135,7 @@ contains
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
       end if
+      call self%errors%record(model, p, run%step, run%time, self%time_before, last, problem)
       if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, near, run, directory, problem)
       self%time_before = run%time
 
@@ -219,6 +223,7 @@ contains
 
       call self%energy_table%close(problem)
       call self%probe_table%close(problem)
+      call self%errors%finish(problem)
    end subroutine finish
 
 end module recorder

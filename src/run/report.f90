@@ -9,6 +9,7 @@ module report
    use omp_lib, only: omp_get_max_threads
    use particles, only: bytes_per_slot
    use progress, only: duration_text
+   use recorder, only: recorder_t
    use run_log, only: log_t
    use scene_setup, only: needed_features
    use settings, only: settings_t
@@ -210,14 +211,14 @@ contains
    end function works_text
 
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, reason, particles, run, seconds, budget, problem)
+   subroutine write_summary_file(path, status, reason, particles, run, seconds, recorder, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
       character(*), intent(in) :: reason      !! why it failed; '' if it did not
       integer, intent(in) :: particles
       type(step_t), intent(in) :: run
       real(dp), intent(in) :: seconds
-      type(budget_t), intent(in) :: budget
+      type(recorder_t), intent(in) :: recorder
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
@@ -232,12 +233,13 @@ contains
       call file%add('run_seconds', seconds)
       call file%add('particle_steps_per_second', rate)
       call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/max(rate, tiny(1.0_dp)))
-      call summarise_budget(budget, file)
+      call summarise_budget(recorder%budget, file)
       call file%add('max_density_variation', run%largest_variation)
       call file%add('max_mach', run%largest_mach)
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
       call file%add('steps_repeated', run%repeated)
+      call recorder%errors%add_to(file)
       call file%write(path, problem)
    end subroutine write_summary_file
 

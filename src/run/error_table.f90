@@ -1,0 +1,115 @@
+!> The table of errors against the scene's exact solution, and what it comes to in the end.
+module error_table
+   use cadence, only: cadence_t
+   use errors, only: failure
+   use kinds, only: dp
+   use model, only: model_t
+   use particles, only: particles_t
+   use settings, only: settings_t
+   use solution_errors, only: measure_errors, name_length, solution_errors_t, start_errors
+   use solution_results, only: result_t, results_of
+   use summary, only: summary_t
+   use table, only: table_t
+   implicit none
+   private
+
+   public :: error_table_t
+
+   !> The open table and its rows so far; nothing without an exact solution.
+   type :: error_table_t
+      private
+      type(solution_errors_t) :: errors
+      type(table_t) :: table
+      type(cadence_t) :: when
+      real(dp) :: time_unit = 1
+      real(dp), allocatable :: times(:)        !! (rows, with room for more)
+      real(dp), allocatable :: history(:, :)   !! (columns, rows, with room for more)
+      integer :: rows = 0
+      logical :: in_use = .false.
+   contains
+      procedure :: start
+      procedure :: record
+      procedure :: add_to
+      procedure :: finish
+   end type error_table_t
+
+contains
+
+   !> Opens the table if the scene has an exact solution.
+   subroutine start(self, scene, model, p, path, time_unit, scaled_unit, problem)
+      class(error_table_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p           !! base state at t = 0
+      character(*), intent(in) :: path
+      real(dp), intent(in) :: time_unit            !! of scaled times
+      character(*), intent(in) :: scaled_unit      !! how time is scaled
+      type(failure), intent(inout) :: problem      !! exit_files
+      character(200) :: lines(4)
+      character(:), allocatable :: message
+
+      if (scene%exact%solution == 'none') return
+      call self%when%parse(trim(scene%output%errors), message)
+      if (self%when%is_never()) return
+      self%in_use = .true.
+      self%time_unit = time_unit
+      call start_errors(self%errors, scene, model, p)
+      allocate (self%times(64), self%history(size(self%errors%names), 64))
+      lines(1) = 'title: '//scene%scene%title
+      lines(2) = 'solution: '//scene%exact%solution
+      lines(3) = 'errors of velocity and pressure, weighted by volume and divided by a scale of the solution: docs/scenes.md'
+      lines(4) = '_exact: of the continuum; _lattice: with the viscosity or sound speed of particles on a square lattice'
+      call self%table%create(path, lines, [character(name_length) :: 'time', 'time_scaled', self%errors%names], &
+                             [character(name_length) :: 'time', scaled_unit, self%errors%units], problem)
+   end subroutine start
+
+   !> Measures and writes a row if it is due.
+   subroutine record(self, model, p, step, time, time_before, last, problem)
+      class(error_table_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: step
+      real(dp), intent(in) :: time, time_before   !! of this step and the step before
+      logical, intent(in) :: last                 !! the run ends here
+      type(failure), intent(inout) :: problem     !! exit_files
+      real(dp), allocatable :: values(:), more(:, :)
+
+      if (.not. self%in_use) return
+      if (.not. (last .or. self%when%is_due(step, time, time_before))) return
+      call measure_errors(self%errors, model, p, time, values)
+      call self%table%row([time, time/self%time_unit, values], problem)
+      if (self%rows == size(self%times)) then
+         self%times = [self%times, self%times]
+         allocate (more(size(values), 2*self%rows))
+         more(:, :self%rows) = self%history
+         call move_alloc(more, self%history)
+      end if
+      self%rows = self%rows + 1
+      self%times(self%rows) = time
+      self%history(:, self%rows) = values
+   end subroutine record
+
+   !> Adds the results to the summary; what the run was too short for is 'none'.
+   subroutine add_to(self, file)
+      class(error_table_t), intent(in) :: self
+      type(summary_t), intent(inout) :: file
+      type(result_t), allocatable :: results(:)
+      integer :: k
+
+      if (.not. self%in_use) return
+      results = results_of(self%errors, self%times(:self%rows), self%history(:, :self%rows))
+      do k = 1, size(results)
+         if (results(k)%known) call file%add(trim(results(k)%key), results(k)%value)
+         if (.not. results(k)%known) call file%add(trim(results(k)%key), 'none')
+      end do
+   end subroutine add_to
+
+   !> Closes the table.
+   subroutine finish(self, problem)
+      class(error_table_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem
+
+      call self%table%close(problem)
+   end subroutine finish
+
+end module error_table
