@@ -6,7 +6,8 @@ module direct_sums
    implicit none
    private
 
-   public :: direct_t, sum_directly, diffuse_directly, gradients_directly, strain_directly, viscosity_directly, deviation
+   public :: direct_t, sum_directly, diffuse_directly, gradients_directly, strain_directly, viscosity_directly, lose_directly
+   public :: deviation
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -179,6 +180,33 @@ contains
          end do
       end do
    end function diffuse_directly
+
+   !> The power that the own particles dissipate: eqs. 12 and 13, each pair's given to its two particles in halves.
+   pure function lose_directly(model, points, n, gradients, alpha, delta) result(power)
+      type(model_t), intent(in) :: model
+      type(points_t), intent(in) :: points          !! images included
+      integer, intent(in) :: n                      !! own particles
+      real(dp), intent(in) :: gradients(:, :)       !! (2, all points) G
+      real(dp), intent(in) :: alpha(:), delta(:)    !! (n) alpha_i, besides the model's alpha, and delta_i
+      real(dp) :: power(n), r_ji(2), u_ji(2), grad(2), d_ij(2), pi_ij, p_by_rho(2)
+      integer :: i, j
+
+      power = 0
+      do i = 1, n
+         do j = 1, size(points%x)
+            r_ji = [points%x(j) - points%x(i), points%y(j) - points%y(i)]
+            if (j == i .or. norm2(r_ji) >= 2*model%kernel%h) cycle
+            grad = gradient(model, points, i, j)*points%w(i)/2
+            u_ji = [points%u(j) - points%u(i), points%v(j) - points%v(i)]
+            pi_ij = dot_product(u_ji, r_ji)/sum(r_ji**2)
+            d_ij = 2*((points%s(j) - points%s(i)) - dot_product(gradients(:, i) + gradients(:, j), r_ji)/2)*r_ji/sum(r_ji**2)
+            p_by_rho = model%c0**2*points%s([i, j])/(model%rho0 + points%s([i, j]))
+            power(i) = power(i) + model%kernel%h*model%c0*( &
+                       model%rho0*(model%alpha + mean(alpha(i), alpha(points%owner(j))))*pi_ij*dot_product(u_ji, grad) &
+                       + mean(delta(i), delta(points%owner(j)))*(p_by_rho(2) - p_by_rho(1))*dot_product(d_ij, grad))
+         end do
+      end do
+   end function lose_directly
 
    !> Largest difference relative to the largest expected value.
    pure real(dp) function deviation(expected, actual)
