@@ -17,7 +17,7 @@ module solution_results
    end type result_t
 
    !> Times over which the loss of an impact is averaged, in c0 t/L; why these: docs/scenes.md.
-   real(dp), parameter, public :: impact_window(2) = [10.0_dp, 20.0_dp]
+   real(dp), parameter, public :: impact_window(2) = [5.0_dp, 10.0_dp]
 
 contains
 
@@ -72,7 +72,7 @@ contains
    function wave_results(errors, times, mode) result(results)
       type(solution_errors_t), intent(in) :: errors
       real(dp), intent(in) :: times(:), mode(:)
-      type(result_t) :: results(5)
+      type(result_t) :: results(6)
       type(oscillation_t) :: fit
       logical :: found
 
@@ -81,6 +81,7 @@ contains
          results = [result_t('standing_wave_frequency', fit%frequency, found), &
                     result_t('standing_wave_frequency_error', fit%frequency/exact%frequency - 1, found), &
                     result_t('standing_wave_decay_rate', fit%decay, found), &
+                    share('standing_wave_decay_over_first_order', fit%decay, exact%first_order_decay, found), &
                     share('standing_wave_decay_over_exact', fit%decay, exact%decay, found), &
                     share('standing_wave_decay_over_lattice', fit%decay, errors%lattice%wave%decay, found)]
       end associate
@@ -95,7 +96,8 @@ contains
       real(dp) :: period, time, axis
       logical :: found
 
-      allocate (equal, source=zero_crossings(times, a - b))
+      ! At t = 0 they are equal to the last digit or nearly.
+      allocate (equal, source=zero_crossings(times(2:), a(2:) - b(2:)))
       period = 0
       if (size(equal) >= 2) period = equal(2)
       results(1) = result_t('drop_period', period, size(equal) >= 2)

@@ -3,7 +3,7 @@ module body_check
    use findings, only: findings_t
    use kinds, only: dp
    use namelist_document, only: document_t
-   use settings, only: body_settings, choice_length, is_wall, settings_t
+   use settings, only: body_settings, choice_length, is_wall, settings_t, side_names
    use text, only: short, to_text
    implicit none
    private
@@ -75,7 +75,6 @@ contains
       integer, intent(in) :: number
       type(findings_t), intent(inout) :: notes
 
-      character(*), parameter :: sides(4) = [character(6) :: 'left', 'bottom', 'right', 'top']
       character(choice_length) :: kinds_there(4)
       character(:), allocatable :: which
       real(dp) :: beyond(4)
@@ -83,12 +82,13 @@ contains
 
       if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain'))) return
       associate (body => setup%bodies(number), domain => setup%domain)
-         kinds_there = [domain%left, domain%bottom, domain%right, domain%top]
-         beyond = [domain%lower - body%lower, body%upper - domain%upper]
+         kinds_there = setup%side_kinds()
+         beyond([1, 3]) = domain%lower - body%lower
+         beyond([2, 4]) = body%upper - domain%upper
          side = findloc(kinds_there /= 'open' .and. beyond > slack*setup%scene%reference_length, .true., 1)
          if (side == 0) return
-         which = trim(sides(side))//' wall'
-         if (.not. is_wall(kinds_there(side))) which = 'periodic '//trim(sides(side))//' side'
+         which = trim(side_names(side))//' wall'
+         if (.not. is_wall(kinds_there(side))) which = 'periodic '//trim(side_names(side))//' side'
          call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body from '//to_text(body%lower) &
                             //' to '//to_text(body%upper)//' lies beyond the '//which//' of &domain; move the body or the ' &
                             //which(index(which, ' ', back=.true.) + 1:))
@@ -107,15 +107,9 @@ contains
       real(dp) :: margin
       character(:), allocatable :: need
 
-      if (.not. notes%clean('fluid')) return
+      if (setup%bodies(number)%pressure /= 'incompressible') return
+      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid'))) return
       associate (body => setup%bodies(number), domain => setup%domain)
-         if (body%pressure == 'hydrostatic' .and. document%given('body', number, 'pressure') &
-             .and. .not. setup%fluid%gravity > 0.0_dp) then
-            call notes%warning(document%place_of('body', number, 'pressure'), &
-                               "&body pressure = 'hydrostatic' has no effect: gravity is 0")
-         end if
-         if (body%pressure /= 'incompressible') return
-         if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain'))) return
          margin = slack*setup%scene%reference_length
          need = ''
          if (count(setup%leans(body)) /= 1) need = 'one side at a wall and the other free'
@@ -136,16 +130,19 @@ contains
       type(findings_t), intent(inout) :: notes
 
       real(dp), allocatable :: depth(:)
+      character(:), allocatable :: words
       integer :: other
 
       if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
+      words = ''
       do other = 1, number - 1
          associate (body => setup%bodies(number))
             depth = overlap(body, setup%bodies(other))
             if (all(depth > slack*setup%scene%reference_length)) then
+               words = short(depth(1))
+               if (size(depth) == 2) words = words//', '//short(depth(2))
                call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body number ' &
-                                  //to_text(number)//' overlaps number '//to_text(other)//' by '//to_text(depth) &
-                                  //'; move one of them')
+                                  //to_text(number)//' overlaps number '//to_text(other)//' by '//words//'; move one of them')
             end if
          end associate
       end do

@@ -1,4 +1,4 @@
-!> Works out what follows from the keys: boxes around discs, the sound speed, the viscosity.
+!> Works out what follows from the keys: boxes around discs, pressure without weight, the sound speed, the viscosity.
 module derived_settings
    use findings, only: findings_t
    use kinds, only: dp
@@ -19,6 +19,7 @@ contains
       type(findings_t), intent(inout) :: notes
 
       call enclose_discs(setup%bodies)
+      call resolve_pressures(document, setup, notes)
       call resolve_sound_speed(document, setup, notes)
       call resolve_viscosity(document, setup, notes)
    end subroutine resolve_settings
@@ -45,6 +46,23 @@ contains
          bodies(i)%upper = bodies(i)%centre + bodies(i)%radius
       end do
    end subroutine enclose_discs
+
+   !> Without weight, hydrostatic pressure is none.
+   subroutine resolve_pressures(document, setup, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(inout) :: setup
+      type(findings_t), intent(inout) :: notes
+
+      integer :: i
+
+      if (.not. notes%clean('fluid') .or. setup%fluid%gravity > 0.0_dp) return
+      do i = 1, size(setup%bodies)
+         if (setup%bodies(i)%pressure /= 'hydrostatic') cycle
+         setup%bodies(i)%pressure = 'zero'
+         if (document%given('body', i, 'pressure')) call notes%warning(document%place_of('body', i, 'pressure'), &
+                                                                       "&body pressure = 'hydrostatic' has no effect: gravity is 0")
+      end do
+   end subroutine resolve_pressures
 
    !> Works out the sound speed from Mach number and reference speed unless it is given.
    subroutine resolve_sound_speed(document, setup, notes)

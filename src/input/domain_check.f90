@@ -3,7 +3,7 @@ module domain_check
    use findings, only: findings_t
    use kinds, only: dp
    use namelist_document, only: document_t
-   use settings, only: choice_length, is_wall, settings_t
+   use settings, only: choice_length, is_wall, settings_t, side_names
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -12,7 +12,6 @@ module domain_check
 
    real(dp), parameter :: least_gap = 5.0_dp       ! walls [dx]: images reach 4 dx and a little more, and have no images
    real(dp), parameter :: least_period = 10.0_dp   ! periodic sides [dx]: a particle meets no other twice
-   character(*), parameter :: sides(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
 
 contains
 
@@ -30,16 +29,6 @@ contains
       call check_images(document, setup, notes)
    end subroutine check_domain
 
-   !> What the four sides are, in the order of `sides`.
-   pure function kinds_of(setup) result(kinds_there)
-      type(settings_t), intent(in) :: setup
-      character(choice_length) :: kinds_there(4)
-
-      associate (domain => setup%domain)
-         kinds_there = [domain%left, domain%right, domain%bottom, domain%top]
-      end associate
-   end function kinds_of
-
    !> Periodic sides are one line: both of a pair must be.
    subroutine check_pairs(document, setup, notes)
       type(document_t), intent(in) :: document
@@ -50,14 +39,16 @@ contains
       integer :: first, other, periodic
 
       if (.not. notes%clean('domain')) return
-      kinds_there = kinds_of(setup)
+      kinds_there = setup%side_kinds()
       do first = 1, 3, 2
          if (count(kinds_there(first:first + 1) == 'periodic') /= 1) cycle
          periodic = findloc(kinds_there(first:first + 1), 'periodic', 1) + first - 1
          other = 2*first + 1 - periodic
-         call notes%mistake(document%place_of('domain', 1, trim(sides(periodic))), 'domain', '&domain '//trim(sides(periodic)) &
-                            //" = 'periodic' needs "//trim(sides(other))//" = 'periodic' too, which is " &
-                            //quoted(kinds_there(other))//': both are the same line')
+         associate (name => side_names(periodic))
+            call notes%mistake(document%place_of('domain', 1, trim(name)), 'domain', '&domain '//trim(name) &
+                               //" = 'periodic' needs "//trim(side_names(other))//" = 'periodic' too, which is " &
+                               //quoted(kinds_there(other))//': both are the same line')
+         end associate
       end do
    end subroutine check_pairs
 
@@ -79,7 +70,7 @@ contains
          return
       end if
       if (.not. notes%clean('scene')) return
-      kinds_there = kinds_of(setup)
+      kinds_there = setup%side_kinds()
       do axis = 1, 2
          associate (pair => kinds_there(2*axis - 1:2*axis))
             if (all(is_wall(pair))) call check_room(axis, extent(axis), least_gap, 'wall', document, setup, notes)
@@ -102,8 +93,8 @@ contains
 
       if (extent >= least*setup%spacing()) return
       call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is '//trim(words(axis))//' than ' &
-                         //short(least*setup%spacing())//', '//short(least)//' dx between '//trim(sides(2*axis - 1))//' and ' &
-                         //trim(sides(2*axis))//' '//what//': raise the resolution')
+                         //short(least*setup%spacing())//', '//short(least)//' dx between '//trim(side_names(2*axis - 1))//' and ' &
+                         //trim(side_names(2*axis))//' '//what//': raise the resolution or move them apart')
    end subroutine check_room
 
    !> Where bottom and top are one line, fluid with weight would fall for ever; a central field would jump there.
@@ -116,14 +107,14 @@ contains
       integer :: side
 
       if (.not. (notes%clean('domain') .and. notes%clean('fluid'))) return
-      kinds_there = kinds_of(setup)
+      kinds_there = setup%side_kinds()
       if (kinds_there(3) == 'periodic' .and. setup%fluid%gravity > 0.0_dp) then
          call notes%mistake(document%place_of('domain', 1, 'bottom'), 'domain', "&domain bottom = 'periodic' needs &fluid " &
                             //'gravity = 0 (it is '//to_text(setup%fluid%gravity)//'): the fluid would fall for ever')
       end if
       if (setup%force%central_rate > 0.0_dp .and. any(kinds_there == 'periodic')) then
          side = findloc(kinds_there, 'periodic', 1)
-         call notes%mistake(document%place_of('domain', 1, trim(sides(side))), 'domain', '&domain '//trim(sides(side)) &
+         call notes%mistake(document%place_of('domain', 1, trim(side_names(side))), 'domain', '&domain '//trim(side_names(side)) &
                             //" = 'periodic' and &force central_rate exclude each other: the central field is not periodic")
       end if
    end subroutine check_falling
@@ -137,11 +128,11 @@ contains
       character(choice_length) :: kinds_there(4)
       integer :: side
 
-      kinds_there = kinds_of(setup)
+      kinds_there = setup%side_kinds()
       do side = 1, 4
          if (kinds_there(side) == 'no_slip' .or. .not. abs(setup%domain%wall_speeds(side)) > 0.0_dp) cycle
          call notes%warning(document%place_of('domain', 1, 'wall_speeds'), '&domain wall_speeds: ' &
-                            //to_text(setup%domain%wall_speeds(side))//' has no effect without '//trim(sides(side)) &
+                            //to_text(setup%domain%wall_speeds(side))//' has no effect without '//trim(side_names(side)) &
                             //" = 'no_slip'; it is "//quoted(kinds_there(side)))
       end do
    end subroutine check_wall_speeds
@@ -156,8 +147,8 @@ contains
 
       if (.not. (notes%clean('fluid') .and. notes%clean('model'))) return
       if (setup%fluid%viscosity > 0.0_dp .or. setup%model%diffusion /= 'constant' .or. setup%model%alpha > 0.0_dp) return
-      side = findloc(kinds_of(setup), 'no_slip', 1)
-      if (side > 0) call notes%warning(document%place_of('domain', 1, trim(sides(side))), '&domain '//trim(sides(side)) &
+      side = findloc(setup%side_kinds(), 'no_slip', 1)
+      if (side > 0) call notes%warning(document%place_of('domain', 1, trim(side_names(side))), '&domain '//trim(side_names(side)) &
                                        //" = 'no_slip' has no effect without viscosity: set &fluid viscosity or &model alpha")
    end subroutine check_no_slip
 
@@ -168,7 +159,7 @@ contains
       type(findings_t), intent(inout) :: notes
 
       if (.not. document%given('domain', 1, 'images') .or. setup%domain%images /= 'hydrostatic') return
-      if (.not. notes%clean('fluid') .or. setup%fluid%gravity > 0.0_dp .or. any(abs(setup%force%acceleration) > 0.0_dp)) return
+      if (.not. notes%clean('fluid') .or. setup%fluid%gravity > 0.0_dp .or. setup%has_acceleration()) return
       call notes%warning(document%place_of('domain', 1, 'images'), &
                          "&domain images = 'hydrostatic' has no effect: gravity is 0")
    end subroutine check_images

@@ -3,6 +3,7 @@ module key_reader
    use findings, only: findings_t, place_t
    use key_visitor, only: key_visitor_t, range_t
    use kinds, only: dp
+   use known_keys, only: described, idle_text, known_t, name_length, same_choice, suggest
    use key_words, only: all_values, count_problem, free_text, shown_values, some_values, take_option
    use namelist_document, only: document_t, entry_t, value_t
    use text, only: lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
@@ -13,14 +14,6 @@ module key_reader
    public :: key_reader_t
 
    integer, parameter :: most_names = 64    ! keys of one group, or groups
-   integer, parameter :: name_length = 32, meaning_length = 160
-
-   !> A key or group that exists.
-   type :: known_t
-      character(name_length) :: name = ''
-      character(meaning_length) :: meaning = ''
-      logical :: missing = .false.          ! required, but not given
-   end type known_t
 
    !> Reads from `document`; what is wrong goes to `notes`.
    type, extends(key_visitor_t) :: key_reader_t
@@ -30,6 +23,9 @@ module key_reader
       integer, private :: group = 0         ! position of the group entered; 0: not in the document
       integer, private :: key_count = 0     ! keys of this group that were visited
       integer, private :: group_count = 0   ! groups that were announced
+      logical, private :: unsure = .false.  ! a choice of this group was refused: what goes with it is not known
+      type(known_t), private :: idle        ! the first key of this group that is given and has no effect
+      type(place_t), private :: idle_place
       type(known_t), private :: keys(most_names)
       type(known_t), private :: groups(most_names)
    contains
@@ -63,7 +59,7 @@ contains
       integer :: number
 
       self%group_count = self%group_count + 1
-      self%groups(self%group_count) = known_t(name, meaning, required .and. self%document%count_of(name) == 0)
+      self%groups(self%group_count) = known_t(name, meaning, missing=required .and. self%document%count_of(name) == 0)
       if (repeatable) return
       first = self%document%place_of(name, 1, '')
       do number = 2, self%document%count_of(name)
@@ -81,6 +77,8 @@ contains
       self%group_name = name
       self%group = self%document%index_of(name, number)
       self%key_count = 0
+      self%unsure = .false.
+      self%idle = known_t()
       call self%always()
    end subroutine enter
 
@@ -102,8 +100,16 @@ contains
                                     '&'//group%name//" has no key '"//group%entries(i)%key//"'; "//hint)
          end do
          do i = 1, self%key_count
-            if (self%keys(i)%missing) call self%notes%mistake(group%place, group%name, '&'//group%name//' needs ' &
-                                                              //described(self%keys(i)))
+            associate (key => self%keys(i))
+               if (.not. key%missing .or. (key%condition /= '' .and. self%unsure)) cycle
+               if (same_choice(key%condition, self%idle%condition)) then
+                  ! One slip: the choice does not fit the keys.
+                  call self%notes%mistake(self%idle_place, group%name, idle_text(group%name, self%idle)//', and ' &
+                                          //trim(key%name)//' is missing')
+                  exit
+               end if
+               call self%notes%mistake(group%place, group%name, '&'//group%name//' needs '//described(key))
+            end associate
          end do
       end associate
       self%group = 0
@@ -132,34 +138,6 @@ contains
          end if
       end do
    end subroutine finish
-
-   !> Says what an unknown name may have meant; that one is then not called missing as well.
-   subroutine suggest(name, mark, known, hint, meant)
-      character(*), intent(in) :: name
-      character(*), intent(in) :: mark                   !! '&' for groups
-      type(known_t), intent(inout) :: known(:)
-      character(:), allocatable, intent(out) :: hint
-      character(:), allocatable, intent(out) :: meant    !! '' if nothing is like it
-
-      character(name_length) :: names(size(known))
-
-      names = known%name
-      meant = nearest_word(name, names)
-      if (meant == '') then
-         hint = 'dynsph --keys lists what there is'
-      else
-         hint = "did you mean '"//mark//meant//"'?"
-         where (known%name == meant) known%missing = .false.
-      end if
-   end subroutine suggest
-
-   !> Name and meaning of a key or group.
-   pure function described(known) result(line)
-      type(known_t), intent(in) :: known
-      character(:), allocatable :: line
-
-      line = trim(known%name)//': '//trim(known%meaning)
-   end function described
 
    !> Reads a real number.
    subroutine real_key(self, name, value, range, unit, meaning, required)
@@ -371,6 +349,7 @@ contains
             return
          end if
       end do
+      self%unsure = .true.
       meant = nearest_word(word%text, choices)
       if (word%needs_quotes .and. .not. word%quoted) then
          call self%refuse(place, name, ': '//word%text//' is text and needs quotes: '//quoted(word%text))
@@ -392,7 +371,7 @@ contains
       logical, intent(in), optional :: required
 
       self%key_count = self%key_count + 1
-      self%keys(self%key_count) = known_t(name, meaning, .false.)
+      self%keys(self%key_count) = known_t(name, meaning, condition=self%condition)
       if (.not. present(required)) return
       self%keys(self%key_count)%missing = required .and. self%active .and. self%document%entry_of(self%group, name) == 0
    end subroutine note_key
@@ -433,8 +412,12 @@ contains
          end do
       end do
       if (any(given) .and. .not. self%active) then
-         call self%notes%warning(places(findloc(given, .true., 1)), '&'//trim(self%group_name)//' '//name &
-                                 //' has no effect without '//self%condition)
+         at = findloc(given, .true., 1)
+         if (self%idle%name == '') then
+            self%idle = known_t(name, '', condition=self%condition)
+            self%idle_place = places(at)
+         end if
+         call self%notes%warning(places(at), idle_text(trim(self%group_name), known_t(name, '', condition=self%condition)))
       end if
    end subroutine collect
 

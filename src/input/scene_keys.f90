@@ -26,7 +26,8 @@ module scene_keys
    !> Those that &exact amplitude and &exact waves belong to.
    character(choice_length), parameter :: with_amplitude(*) = [character(choice_length) :: &
       'standing_wave', 'oscillating_drop', 'taylor_green', 'acoustic_wave', 'rotating_square']
-   character(choice_length), parameter :: with_waves(*) = [character(choice_length) :: 'standing_wave', 'acoustic_wave']
+   character(choice_length), parameter :: with_waves(*) = [character(choice_length) :: &
+      'standing_wave', 'taylor_green', 'acoustic_wave']
 
    !> What snapshots can hold.
    character(name_length), parameter :: field_names(*) = &
@@ -44,7 +45,7 @@ contains
       call keys%announce('scene', 'What the scene is called and how fine it is.', .true., .false.)
       call visit_scene(keys, setup%scene)
       call keys%announce('domain', 'The box the fluid moves in; its sides are walls or open.', .true., .false.)
-      call visit_domain(keys, setup%domain)
+      call visit_domain(keys, setup%domain, with_force=setup%fluid%gravity > 0.0_dp .or. setup%has_acceleration())
       call keys%announce('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.)
       call visit_fluid(keys, setup%fluid)
       call keys%announce('force', 'What acts on the fluid besides gravity.', .false., .false.)
@@ -82,9 +83,10 @@ contains
    end subroutine visit_scene
 
    !> Keys of &domain.
-   subroutine visit_domain(keys, domain)
+   subroutine visit_domain(keys, domain, with_force)
       class(key_visitor_t), intent(inout) :: keys
       type(domain_settings), intent(inout) :: domain
+      logical, intent(in) :: with_force   !! something makes hydrostatic pressure; not known yet when read
 
       call keys%enter('domain', 1)
       call keys%vector_key('lower', domain%lower, any_number(), 'm', 'Lower left corner of the box, x and y.')
@@ -96,6 +98,7 @@ contains
       call keys%choice_key('top', domain%top, side_choices, 'What the side at the largest y is.')
       call keys%vector_key('wall_speeds', domain%wall_speeds, any_number(), 'm/s', &
                            'Speeds of the no-slip sides left, right, bottom and top, along themselves.')
+      call keys%only_with('gravity or acceleration', with_force)
       call keys%choice_key('images', domain%images, [character(choice_length) :: 'hydrostatic', 'mirror'], &
                            'Density of the mirror images: with the hydrostatic difference, or copied.')
       call keys%leave()

@@ -16,6 +16,9 @@ module settings
    integer, parameter, public :: name_length = 32      !! characters of names and cadences
    integer, parameter, public :: choice_length = 16    !! characters of a choice
 
+   !> The sides of the box in the order of `side_kinds`.
+   character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
+
    real(dp), parameter :: smoothing_ratio = 2.0_dp     ! h/dx, fixed by the scheme
 
    !> &scene: what it is called and how fine it is.
@@ -130,6 +133,8 @@ module settings
       procedure :: smoothing_length
       procedure :: alpha_total
       procedure :: leans
+      procedure :: side_kinds
+      procedure :: has_acceleration
    end type settings_t
 
 contains
@@ -173,6 +178,21 @@ contains
                 .and. abs([body%lower(1) - self%domain%lower(1), body%upper(1) - self%domain%upper(1)]) &
                 <= margin*self%scene%reference_length
    end function leans
+
+   !> What the left, right, bottom and top side of the box are.
+   pure function side_kinds(self) result(kinds_there)
+      class(settings_t), intent(in) :: self
+      character(choice_length) :: kinds_there(4)
+
+      kinds_there = [self%domain%left, self%domain%right, self%domain%bottom, self%domain%top]
+   end function side_kinds
+
+   !> Whether a uniform force acts besides gravity.
+   pure logical function has_acceleration(self)
+      class(settings_t), intent(in) :: self
+
+      has_acceleration = any(abs(self%force%acceleration) > 0.0_dp)
+   end function has_acceleration
 
    !> True for a side of the box that holds the fluid back.
    elemental logical function is_wall(side)

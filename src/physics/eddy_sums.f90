@@ -37,11 +37,13 @@ contains
    end subroutine sum_eddy
 
    ! Explicit shapes and accumulators of fixed length keep the sums in vector registers. One division serves both
-   ! harmonic means: 1/[(alpha_i + alpha_j)(delta_i + delta_j)]; tiny makes the means of 0 and 0 vanish.
+   ! harmonic means: 1/[(alpha_i + alpha_j)(delta_i + delta_j)]; `nothing` makes the mean of 0 and 0 vanish without a
+   ! trace in the other one.
    pure subroutine lane_loop(n_ranges, first, last, n, x, y, u, v, s, w, gx, gy, a, d, alpha, i0, inverse_support, sums)
       integer, intent(in) :: n_ranges, first(n_ranges), last(n_ranges), n, i0
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), gx(n), gy(n), a(n), d(n), alpha, inverse_support
       type(eddy_sums_t), intent(out) :: sums
+      real(dp), parameter :: nothing = 1.0e-150_dp   ! its square can be divided by
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, gxi, gyi, ai, di, diffusion, fx, fy
       real(dp) :: dx, dy, r, inverse, t, g, d_ij, pi_ij, a_sum, d_sum, both, f
       integer :: k, j, l
@@ -67,9 +69,9 @@ contains
                call root(dx*dx + (dy*dy + tiny(1.0_dp)), r, inverse)
                t = max(0.0_dp, 1 - inverse_support*r)
                g = t*t*(t*w(j))
-               a_sum = ai(l) + a(j)
-               d_sum = di(l) + d(j)
-               both = 2/(a_sum*d_sum + tiny(1.0_dp))
+               a_sum = ai(l) + a(j) + nothing
+               d_sum = di(l) + d(j) + nothing
+               both = 2/(a_sum*d_sum)
                d_ij = 2*(s(j) - si(l)) - ((gxi(l) + gx(j))*dx + (gyi(l) + gy(j))*dy)
                diffusion(l) = diffusion(l) + (di(l)*d(j))*(a_sum*both)*(d_ij*g)
                pi_ij = ((u(j) - ui(l))*dx + (v(j) - vi(l))*dy)*(inverse*inverse)

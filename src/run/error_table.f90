@@ -10,6 +10,7 @@ module error_table
    use solution_results, only: result_t, results_of
    use summary, only: summary_t
    use table, only: table_t
+   use time_scale, only: time_scale_t
    implicit none
    private
 
@@ -21,7 +22,7 @@ module error_table
       type(solution_errors_t) :: errors
       type(table_t) :: table
       type(cadence_t) :: when
-      real(dp) :: time_unit = 1
+      type(time_scale_t) :: scale
       real(dp), allocatable :: times(:)        !! (rows, with room for more)
       real(dp), allocatable :: history(:, :)   !! (columns, rows, with room for more)
       integer :: rows = 0
@@ -36,14 +37,13 @@ module error_table
 contains
 
    !> Opens the table if the scene has an exact solution.
-   subroutine start(self, scene, model, p, path, time_unit, scaled_unit, problem)
+   subroutine start(self, scene, model, p, path, scale, problem)
       class(error_table_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p           !! base state at t = 0
       character(*), intent(in) :: path
-      real(dp), intent(in) :: time_unit            !! of scaled times
-      character(*), intent(in) :: scaled_unit      !! how time is scaled
+      type(time_scale_t), intent(in) :: scale
       type(failure), intent(inout) :: problem      !! exit_files
       character(200) :: lines(4)
       character(:), allocatable :: message
@@ -52,7 +52,7 @@ contains
       call self%when%parse(trim(scene%output%errors), message)
       if (self%when%is_never()) return
       self%in_use = .true.
-      self%time_unit = time_unit
+      self%scale = scale
       call start_errors(self%errors, scene, model, p)
       allocate (self%times(64), self%history(size(self%errors%names), 64))
       lines(1) = 'title: '//scene%scene%title
@@ -60,7 +60,7 @@ contains
       lines(3) = 'errors of velocity and pressure, weighted by volume and divided by a scale of the solution: docs/scenes.md'
       lines(4) = '_exact: of the continuum; _lattice: with the viscosity or sound speed of particles on a square lattice'
       call self%table%create(path, lines, [character(name_length) :: 'time', 'time_scaled', self%errors%names], &
-                             [character(name_length) :: 'time', scaled_unit, self%errors%units], problem)
+                             [character(name_length) :: 'time', scale%name, self%errors%units], problem)
    end subroutine start
 
    !> Measures and writes a row if it is due.
@@ -77,7 +77,7 @@ contains
       if (.not. self%in_use) return
       if (.not. (last .or. self%when%is_due(step, time, time_before))) return
       call measure_errors(self%errors, model, p, time, values)
-      call self%table%row([time, time/self%time_unit, values], problem)
+      call self%table%row([time, time/self%scale%unit, values], problem)
       if (self%rows == size(self%times)) then
          self%times = [self%times, self%times]
          allocate (more(size(values), 2*self%rows))

@@ -15,6 +15,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
+   use text, only: to_text
    implicit none
 
    type(command_line_t) :: options
@@ -76,8 +77,9 @@ contains
          return
       end if
       call screen%open('', options%quiet, problem)
+      ! Each is a kind of its own, so that all are shown.
       do k = 1, size(warnings)
-         call screen%warn('input', trim(warnings(k)))
+         call screen%warn('input '//to_text(k), trim(warnings(k)))
       end do
       model = set_up_model(scene)
       call start_box(screen, scene, model, estimate(scene, model, count_particles(scene)))
@@ -104,7 +106,7 @@ contains
          return
       end if
       do k = 1, size(warnings)
-         call log%warn('input', trim(warnings(k)))
+         call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
       if (scene%fluid%find_reference_speed) call find_reference_speed(scene, log, problem)
       if (.not. problem%raised()) then

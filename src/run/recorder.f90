@@ -74,7 +74,7 @@ contains
       end if
       if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
          call start_probes(self, scene, model, directory, problem)
-      call self%errors%start(scene, model, p, directory%file(errors_name), self%scale%unit, self%scale%name, problem)
+      call self%errors%start(scene, model, p, directory%file(errors_name), self%scale, problem)
    end subroutine start
 
    subroutine start_energies(self, scene, directory, problem)

@@ -242,6 +242,7 @@ contains
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
       call file%add('steps_repeated', run%repeated)
+      call file%add('steps_limited', run%limited)
       call recorder%errors%add_to(file)
       call file%write(path, problem)
    end subroutine write_summary_file

@@ -5,7 +5,7 @@ module march
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
-   use patches, only: points_of, points_t
+   use patches, only: points_of, points_t, scatter
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t
    implicit none
@@ -18,6 +18,7 @@ module march
       type(points_t) :: at          !! last state
       type(step_t) :: run
       type(energies_t) :: first, last
+      real(dp), allocatable :: dissipated(:)   !! (n) if it was asked for
    contains
       procedure :: balance_error
    end type end_t
@@ -49,6 +50,9 @@ contains
       end do
       call measure_energies(model, p, finish%last)
       finish%at = points_of(p)
+      if (.not. p%features%dissipation) return
+      allocate (finish%dissipated(p%n))
+      call scatter(p, p%dissipated, finish%dissipated)
    end subroutine march_on
 
    !> Watches for the phases of a step.
@@ -60,7 +64,8 @@ contains
    pure real(dp) function balance_error(self)
       class(end_t), intent(in) :: self
 
-      balance_error = self%last%total() - self%first%total() - self%run%work_alpha - self%run%work_delta - self%run%work_walls
+      balance_error = self%last%total() - self%first%total() - self%run%work_alpha - self%run%work_delta - self%run%work_walls &
+                      - self%run%work_force
    end function balance_error
 
 end module march

@@ -5,16 +5,19 @@ module patches
    use kinds, only: dp, i8
    use model, only: model_t
    use neighbours, only: list_ranges, neighbours_t, sort_particles
-   use particles, only: allocate_particles, particles_t
+   use particles, only: allocate_particles, features_t, particles_t
    implicit none
    private
 
-   public :: random_t, points_t, empty_points, open_model, tank_model, fill_patch, put_particles, set_linear_density
-   public :: find_neighbours, points_of, with_images, scatter
+   public :: random_t, points_t, empty_points, open_model, tank_model, box_model, channel_model, make_dynamic
+   public :: fill_patch, put_particles
+   public :: set_linear_density, find_neighbours, points_of, with_images, without_slip, scatter
 
    real(dp), parameter, public :: spacing = 0.05_dp                    !! dx of the models below
    real(dp), parameter, public :: tank_width = 0.6873_dp               !! no multiple of dx
    real(dp), parameter, public :: floor_at = -0.0217_dp                !! y of the tank's bottom
+
+   real(dp), parameter, public :: box_height = 0.5519_dp               !! of the periodic box
 
    !> Minimal generator, so that every machine tests the same particles.
    type :: random_t
@@ -28,6 +31,7 @@ module patches
       real(dp), allocatable :: x(:), y(:), u(:), v(:), s(:), w(:), m(:)
       integer, allocatable :: owner(:)                !! number of the particle, or of the image's source
       real(dp), allocatable :: sign_x(:), sign_y(:)   !! -1 if mirrored in that direction
+      integer, allocatable :: vertical(:), horizontal(:)   !! sides that an image is beyond; 0: none
    end type points_t
 
 contains
@@ -61,13 +65,39 @@ contains
       model%walls%density_slope = [0.0_dp, -model%rho0*model%gravity/model%c0**2]
    end function tank_model
 
+   !> No walls, no gravity, and all four sides of a box periodic.
+   type(model_t) function box_model() result(model)
+      model = open_model()
+      model%walls%periodic = .true.
+      model%walls%at = [0.0_dp, tank_width, floor_at, floor_at + box_height]
+   end function box_model
+
+   !> A floor and a lid, free slip, between periodic sides; no gravity.
+   type(model_t) function channel_model() result(model)
+      model = box_model()
+      model%walls%periodic = [.true., .false.]
+      model%walls%present([bottom_wall, top_wall]) = .true.
+   end function channel_model
+
+   !> Puts the paper's dynamic model in the place of constant delta; the model's alpha is then that of a real viscosity.
+   pure subroutine make_dynamic(model)
+      type(model_t), intent(inout) :: model
+
+      model%dynamic = .true.
+      model%delta = 0
+      model%alpha_per_strain = 0.4608_dp*model%kernel%h/model%c0
+      model%delta_per_strain = 9*model%kernel%h/model%c0
+      model%limit = 0.2_dp
+   end subroutine make_dynamic
+
    !> A disordered block of n(1) x n(2) particles from `lower` to `upper`, left in `next` as by the scene set-up.
-   subroutine fill_patch(model, p, lower, upper, n, seed, speed)
+   subroutine fill_patch(model, p, lower, upper, n, seed, speed, features)
       type(model_t), intent(in) :: model
       type(particles_t), intent(out) :: p
       real(dp), intent(in) :: lower(2), upper(2)
       integer, intent(in) :: n(2), seed
       real(dp), intent(in) :: speed   !! of each component at most
+      type(features_t), intent(in), optional :: features
       type(points_t) :: points
       type(random_t) :: random
       real(dp) :: cell(2)
@@ -88,17 +118,18 @@ contains
          end do
       end do
       points%m = (model%rho0 + points%s)*points%w
-      call put_particles(points, p)
+      call put_particles(points, p, features)
    end subroutine fill_patch
 
    !> Particles with these states in `next`; the mass is taken as given.
-   subroutine put_particles(points, p)
+   subroutine put_particles(points, p, features)
       type(points_t), intent(in) :: points
       type(particles_t), intent(out) :: p
+      type(features_t), intent(in), optional :: features
       integer :: n, i
 
       n = size(points%x)
-      call allocate_particles(p, n)
+      call allocate_particles(p, n, features)
       p%n_own = n
       p%id(1:n) = [(i, i=1, n)]
       p%m(1:n) = points%m
@@ -169,37 +200,68 @@ contains
       type(points_t), intent(in) :: points
       type(walls_t), intent(in) :: walls
       integer :: wall, side
+      logical :: there(4)
 
+      there = walls%present .or. [walls%periodic(1), walls%periodic(1), walls%periodic(2), walls%periodic(2)]
       both = points
       do wall = 1, 4
-         if (walls%present(wall)) call append(both, mirrored(points, walls, wall))
+         if (there(wall)) call append(both, image_at(points, walls, wall))
       end do
       do side = left_wall, right_wall
          do wall = bottom_wall, top_wall
-            if (walls%present(side) .and. walls%present(wall)) &
-               call append(both, mirrored(mirrored(points, walls, side), walls, wall))
+            if (there(side) .and. there(wall)) call append(both, image_at(image_at(points, walls, side), walls, wall))
          end do
       end do
    end function with_images
 
-   ! The points mirrored at one wall.
-   type(points_t) function mirrored(points, walls, wall) result(image)
+   ! The points mirrored at one wall, or moved beyond one periodic side.
+   type(points_t) function image_at(points, walls, wall) result(image)
       type(points_t), intent(in) :: points
       type(walls_t), intent(in) :: walls
       integer, intent(in) :: wall
 
       image = points
-      if (wall == left_wall .or. wall == right_wall) then
+      select case (wall)
+      case (left_wall, right_wall)
+         image%vertical = wall
+         if (walls%periodic(1)) then
+            image%x = points%x + merge(-1, 1, wall == left_wall)*(walls%at(right_wall) - walls%at(left_wall))
+            return
+         end if
          image%x = walls%at(wall) - (points%x - walls%at(wall))
          image%u = -points%u
          image%sign_x = -points%sign_x
-      else
+      case default
+         image%horizontal = wall
+         if (walls%periodic(2)) then
+            image%y = points%y + merge(-1, 1, wall == bottom_wall)*(walls%at(top_wall) - walls%at(bottom_wall))
+            return
+         end if
          image%y = walls%at(wall) - (points%y - walls%at(wall))
          image%v = -points%v
          image%sign_y = -points%sign_y
-      end if
+      end select
       image%s = points%s + walls%density_slope(1)*(image%x - points%x) + walls%density_slope(2)*(image%y - points%y)
-   end function mirrored
+   end function image_at
+
+   !> The same points as viscosity sees them: beyond a no-slip wall of speed U, the velocity along it is 2 U - u.
+   type(points_t) function without_slip(points, walls) result(viscous)
+      type(points_t), intent(in) :: points   !! with images
+      type(walls_t), intent(in) :: walls
+      integer :: j
+
+      viscous = points
+      do j = 1, size(points%x)
+         associate (v => points%vertical(j), h => points%horizontal(j))
+            if (h > 0) then
+               if (walls%no_slip(h)) viscous%u(j) = 2*walls%speed(h) - points%u(j)
+            end if
+            if (v > 0) then
+               if (walls%no_slip(v)) viscous%v(j) = 2*walls%speed(v) - points%v(j)
+            end if
+         end associate
+      end do
+   end function without_slip
 
    subroutine append(points, more)
       type(points_t), intent(inout) :: points
@@ -215,6 +277,8 @@ contains
       points%owner = [points%owner, more%owner]
       points%sign_x = [points%sign_x, more%sign_x]
       points%sign_y = [points%sign_y, more%sign_y]
+      points%vertical = [points%vertical, more%vertical]
+      points%horizontal = [points%horizontal, more%horizontal]
    end subroutine append
 
    !> n particles that are still to be filled in; masses too.
@@ -224,6 +288,7 @@ contains
 
       allocate (points%x(n), points%y(n), points%u(n), points%v(n), points%s(n), points%w(n), points%m(n), source=0.0_dp)
       allocate (points%sign_x(n), points%sign_y(n), source=1.0_dp)
+      allocate (points%vertical(n), points%horizontal(n), source=0)
       points%owner = [(i, i=1, n)]
    end function empty_points
 

@@ -1,0 +1,119 @@
+!> What a scene lacks for something, gathered so that all of it can be told at once.
+module scene_needs
+   use kinds, only: dp
+   use settings, only: choice_length, name_length, settings_t, side_names
+   use text, only: to_text
+   implicit none
+   private
+
+   public :: needs_t, need_no_weight, need_open_sides, need_one_body, need_width, need_full_box, same
+
+   real(dp), parameter, public :: slack = 1.0e-9_dp   !! of lengths in units of d: rounding of the input
+
+   !> Something that the scene lacks, and the key to change.
+   type :: need_t
+      character(:), allocatable :: what
+      character(name_length) :: group = '', key = ''
+      integer :: number = 1
+   end type need_t
+
+   !> All that it lacks.
+   type :: needs_t
+      integer :: n = 0
+      type(need_t) :: items(24)
+   contains
+      procedure :: unless
+   end type needs_t
+
+contains
+
+   !> Adds a need unless it is met.
+   subroutine unless(self, met, what, group, key, number)
+      class(needs_t), intent(inout) :: self
+      logical, intent(in) :: met
+      character(*), intent(in) :: what, group, key
+      integer, intent(in), optional :: number   !! of the group
+
+      if (met) return
+      self%n = self%n + 1
+      associate (item => self%items(self%n))
+         item%what = what
+         item%group = group
+         item%key = key
+         if (present(number)) item%number = number
+      end associate
+   end subroutine unless
+
+   !> Gravity must be 0.
+   subroutine need_no_weight(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      call needs%unless(.not. setup%fluid%gravity > 0.0_dp, 'gravity = 0 (it is '//to_text(setup%fluid%gravity)//')', &
+                        'fluid', 'gravity')
+   end subroutine need_no_weight
+
+   !> All four sides must be open.
+   subroutine need_open_sides(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      character(choice_length) :: kinds_there(4)
+      character(:), allocatable :: closed
+      integer :: i
+
+      kinds_there = setup%side_kinds()
+      closed = ''
+      do i = 4, 1, -1
+         if (kinds_there(i) /= 'open') closed = trim(side_names(i))//', '//closed
+      end do
+      if (closed == '') return
+      call needs%unless(.false., "open sides: set "//closed(:len_trim(closed) - 1)//" = 'open'", 'domain', &
+                        closed(:index(closed, ',') - 1))
+   end subroutine need_open_sides
+
+   !> There must be one body, of a shape.
+   subroutine need_one_body(setup, shape, needs)
+      type(settings_t), intent(in) :: setup
+      character(*), intent(in) :: shape
+      type(needs_t), intent(inout) :: needs
+
+      call needs%unless(size(setup%bodies) == 1, 'a single &body', 'body', '', 2)
+      if (size(setup%bodies) /= 1) return
+      call needs%unless(setup%bodies(1)%shape == shape, "&body shape = '"//shape//"'", 'body', 'shape')
+   end subroutine need_one_body
+
+   !> The body must reach from the left to the right side.
+   subroutine need_width(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      associate (body => setup%bodies(1), domain => setup%domain)
+         call needs%unless(same(setup, body%lower(1), domain%lower(1)) .and. same(setup, body%upper(1), domain%upper(1)), &
+                           'a body from side to side, from x = '//to_text(domain%lower(1))//' to '//to_text(domain%upper(1)), &
+                           'body', 'upper')
+      end associate
+   end subroutine need_width
+
+   !> The body must fill the box.
+   subroutine need_full_box(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      if (size(setup%bodies) /= 1) return
+      associate (body => setup%bodies(1), domain => setup%domain)
+         call needs%unless(all(same(setup, [body%lower, body%upper], [domain%lower, domain%upper])), &
+                           'a body that fills the box, from '//to_text(domain%lower)//' to '//to_text(domain%upper), &
+                           'body', 'upper')
+      end associate
+   end subroutine need_full_box
+
+   !> Equal but for the rounding of the input.
+   elemental logical function same(setup, one, other)
+      type(settings_t), intent(in) :: setup
+      real(dp), intent(in) :: one, other   !! lengths [m]
+
+      same = abs(one - other) <= slack*setup%scene%reference_length
+   end function same
+
+end module scene_needs
