@@ -134,6 +134,7 @@ contains
       integer :: other
 
       if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
+      words = ''
       do other = 1, number - 1
          associate (body => setup%bodies(number))
             depth = overlap(body, setup%bodies(other))

@@ -7,6 +7,7 @@ program main
    use file_system, only: write_whole_file
    use lanes, only: nl
    use model, only: model_t
+   use preliminary, only: find_reference_speed, preliminary_text
    use report, only: estimate, start_box
    use result_directory, only: input_name, log_name, result_directory_t
    use run_log, only: log_t
@@ -82,12 +83,13 @@ contains
       end do
       model = set_up_model(scene)
       call start_box(screen, scene, model, estimate(scene, model, count_particles(scene)))
+      if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
       call screen%line(options%scene//' is valid; nothing was run')
    end subroutine run_scene
 
    subroutine run_into_directory(options, scene, warnings, problem)
       type(command_line_t), intent(in) :: options
-      type(settings_t), intent(in) :: scene
+      type(settings_t), intent(inout) :: scene   !! on return with the reference speed that was used
       character(*), intent(in) :: warnings(:)
       type(failure), intent(inout) :: problem
       type(result_directory_t) :: directory
@@ -106,8 +108,11 @@ contains
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
-      input_text = echo_text(scene)
-      call write_whole_file(directory%file(input_name), input_text, problem)
+      if (scene%fluid%find_reference_speed) call find_reference_speed(scene, log, problem)
+      if (.not. problem%raised()) then
+         input_text = echo_text(scene)
+         call write_whole_file(directory%file(input_name), input_text, problem)
+      end if
       if (problem%raised()) then
          call log%close()
          call directory%discard(problem)

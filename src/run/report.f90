@@ -5,6 +5,7 @@ module report
    use errors, only: failure
    use images, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
+   use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t
    use omp_lib, only: omp_get_max_threads
    use particles, only: bytes_per_slot
@@ -236,6 +237,8 @@ contains
       call summarise_budget(recorder%budget, file)
       call file%add('max_density_variation', run%largest_variation)
       call file%add('max_mach', run%largest_mach)
+      call file%add('sound_speed_needed_density', sound_speed_for_density(recorder%head%sound_speed, run))
+      call file%add('sound_speed_needed_mach', sound_speed_for_mach(recorder%head%sound_speed, run))
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
       call file%add('steps_repeated', run%repeated)

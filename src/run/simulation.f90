@@ -3,6 +3,7 @@ module simulation
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use images, only: bottom_wall
+   use limits, only: report_limits, watch_limits
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
@@ -13,7 +14,8 @@ module simulation
    use run_log, only: log_t
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: settings_t
-   use text, only: short, to_text
+   use step_check, only: check_step
+   use text, only: short
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t, wall_seconds
    implicit none
@@ -23,7 +25,6 @@ module simulation
 
    integer, parameter :: phase_output = 5
    real(dp), parameter :: poor_balance = 5.0e-3_dp   !! error of the energy balance that is worth a warning
-   real(dp), parameter :: least_step_share = 1.0e-6_dp   !! of CFL h/c0; a run with smaller steps would not end
    character(*), parameter :: phases(5) = [character(32) :: 'sort, images, neighbours', 'gradients, viscosity', &
                                            'density diffusion, stage 1', 'stages 2 to 4', 'energies, probes, snapshots']
 
@@ -75,6 +76,7 @@ contains
       if (closing%raised()) call problem%raise(closing%code, closing%message)
       if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
          //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
+      call report_limits(log, model%c0, run)
       if (reason /= '') call log%keep(reason)
       call log%report_warnings()
       call closing_table(log, timers, seconds, recorder%budget, run, directory%path)
@@ -109,12 +111,14 @@ contains
          if (status /= '') exit
          before = run
          call advance(model, p, near, run, scene%time%end_time, timers)
-         call check_step(scene, model, p, run, problem)
-         if (.not. problem%raised()) call refresh(model, p, near, run, timers)
-         if (run%scattered) call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank ' &
-                                               //'after step '//to_text(run%step)//': close the open side it left by')
+         call check_step(model, p, run, scene%time%end_time, problem)
+         if (.not. problem%raised()) then
+            call refresh(model, p, near, run, timers)
+            if (run%scattered) call check_step(model, p, run, scene%time%end_time, problem)
+         end if
          if (problem%raised()) then
             status = 'failed: numerics'
+            problem%message = problem%message//'. The state before the step is in the last snapshot.'
             ! The state before the step is still there. A second failure would hide the first.
             run = before
             if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, near, run, directory, &
@@ -143,47 +147,5 @@ contains
          status = 'stopped: max_wall_time'
       end if
    end function reason_to_end
-
-   ! The assumptions of the weakly-compressible model, eq. 4 and sec. 2.
-   subroutine watch_limits(log, run)
-      type(log_t), intent(inout) :: log
-      type(step_t), intent(in) :: run
-      real(dp), parameter :: mach_limit = 0.1_dp, variation_limit = 0.01_dp
-
-      if (run%mach > mach_limit .and. log%warning_count('Mach number') == 0) call log%warn('Mach number', &
-         'Mach number above 0.1 from t = '//short(run%time)//' on; a larger sound_speed would hold it')
-      if (run%variation > variation_limit .and. log%warning_count('density') == 0) call log%warn('density', &
-         'density varies by more than 1 % from t = '//short(run%time)//' on')
-   end subroutine watch_limits
-
-   ! Whether the step's result can be gone on with.
-   subroutine check_step(scene, model, p, run, problem)
-      type(settings_t), intent(in) :: scene
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      type(step_t), intent(in) :: run
-      type(failure), intent(inout) :: problem
-
-      if (run%scattered) return
-      if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
-      if (run%dt < least_step_share*model%longest_step() .and. run%time < scene%time%end_time) &
-         call problem%raise(exit_numerics, 'step '//to_text(run%step)//' at t = '//short(run%time)//' is only '//short(run%dt) &
-                            //' long: two particles close on each other too fast; a smaller cfl may help')
-   end subroutine check_step
-
-   subroutine explain_loss(model, p, run, problem)
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      type(step_t), intent(in) :: run
-      type(failure), intent(inout) :: problem
-
-      associate (i => run%lost_slot)
-         call problem%raise(exit_numerics, &
-            'the solution left its range in step '//to_text(run%step)//' at t = '//to_text(run%time)//': particle ' &
-            //to_text(p%id(i))//', before the step at ('//to_text(p%base%x(i))//', '//to_text(p%base%y(i))//'), has speed/c0 ' &
-            //to_text(norm2([p%next%u(i), p%next%v(i)])/model%c0)//' and (rho - rho0)/rho0 '//to_text(p%next%s(i)/model%rho0) &
-            //'; a smaller cfl or a larger sound_speed may help. The state before the step is in the last snapshot.')
-      end associate
-   end subroutine explain_loss
 
 end module simulation
