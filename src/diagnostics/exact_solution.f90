@@ -30,6 +30,7 @@ module exact_solution
       logical :: has_pressure = .false.     !! at t = 0
       logical :: lasts = .false.            !! has them at later times too
       logical :: by_lattice = .false.       !! viscosity or sound speed differ on a lattice
+      logical :: turned = .false.           !! the lattice is not along the axes
       real(dp) :: time = 0
       real(dp) :: origin(2) = 0             !! where the solution has x = y = 0
       real(dp) :: extent(2) = 1             !! of the box or body that it fills
@@ -64,6 +65,7 @@ contains
 
       self%name = scene%exact%solution
       self%amplitude = scene%exact%amplitude
+      self%turned = scene%bodies(1)%lattice == 'turned'
       self%rho0 = model%rho0
       self%c0 = model%c0
       self%gravity = model%gravity
@@ -96,7 +98,7 @@ contains
       viscosity = continuum_shear*model%alpha*model%kernel%h*model%c0
    end function shear_on_continuum
 
-   !> nu/(alpha h c0) that a solution meets on a lattice along the axes.
+   !> nu/(alpha h c0) that a solution meets on a lattice.
    !!
    !! Taylor-Green vortices are shear waves along both diagonals. A standing wave strains along the axes (as a wave on the
    !! diagonal does) with cosh(ky)**2 and shears with sinh(ky)**2; both dissipate in proportion to their integrals over depth.
@@ -111,19 +113,29 @@ contains
       depth = self%extent(2)
       select case (self%name)
       case ('taylor_green')
-         coefficient = shear_coefficient(ratio, diagonal, sqrt(2.0_dp)*k*model%dx)
+         coefficient = shear_coefficient(ratio, in_lattice(self, diagonal), sqrt(2.0_dp)*k*model%dx)
       case ('standing_wave')
          ! Both divided by cosh(2 k depth)/(2 k); of deep water both are the same.
          strain = tanh(2*k*depth) + 2*k*depth/cosh(min(2*k*depth, 300.0_dp))
          shear = tanh(2*k*depth) - 2*k*depth/cosh(min(2*k*depth, 300.0_dp))
-         coefficient = (strain*shear_coefficient(ratio, diagonal, sqrt(2.0_dp)*k*model%dx) &
-                        + shear*shear_coefficient(ratio, axis, k*model%dx))/(strain + shear)
+         coefficient = (strain*shear_coefficient(ratio, in_lattice(self, diagonal), sqrt(2.0_dp)*k*model%dx) &
+                        + shear*shear_coefficient(ratio, in_lattice(self, axis), k*model%dx))/(strain + shear)
       case ('couette', 'poiseuille')
-         coefficient = shear_coefficient(ratio, axis, pi*model%dx/depth)
+         coefficient = shear_coefficient(ratio, in_lattice(self, axis), pi*model%dx/depth)
       case default
-         coefficient = shear_coefficient(ratio, axis)
+         coefficient = shear_coefficient(ratio, in_lattice(self, axis))
       end select
    end function shear_on_lattice
+
+   ! A direction as the lattice sees it: one of vectors (5, 3) and (-3, 5) if it is turned.
+   pure function in_lattice(self, direction) result(seen)
+      type(exact_solution_t), intent(in) :: self
+      real(dp), intent(in) :: direction(2)
+      real(dp) :: seen(2)
+
+      seen = direction
+      if (self%turned) seen = [5*direction(1) + 3*direction(2), 5*direction(2) - 3*direction(1)]
+   end function in_lattice
 
    ! Fluid on the floor of the box.
    pure subroutine set_up_tank(self, k)

@@ -167,10 +167,12 @@ contains
       type(solution_errors_t), intent(in) :: errors
       real(dp), intent(in) :: times(:), mode(:)
       type(result_t) :: results(3)
+      character(:), allocatable :: name
       real(dp) :: rate
       logical :: found
 
-      associate (exact => errors%solution%channel, name => trim(errors%solution%name))
+      name = trim(errors%solution%name)
+      associate (exact => errors%solution%channel)
          if (errors%solution%name == 'couette') then
             call fit_approach(times, mode, exact%rate(1), rate, found, limit=exact%steady_mode(1))
          else

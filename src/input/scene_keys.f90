@@ -154,6 +154,8 @@ contains
       call keys%only_with("shape = 'rectangle'", body%shape == 'rectangle')
       call keys%vector_key('lower', body%lower, any_number(), 'm', 'Lower left corner, x and y.', required=.true.)
       call keys%vector_key('upper', body%upper, any_number(), 'm', 'Upper right corner, x and y.', required=.true.)
+      call keys%choice_key('lattice', body%lattice, [character(choice_length) :: 'aligned', 'turned'], &
+                           'How its particles stand; turned by 31 degrees they bear strain along the axes (periodic boxes).')
       call keys%only_with("shape = 'disc'", body%shape == 'disc')
       call keys%vector_key('centre', body%centre, any_number(), 'm', 'Centre, x and y.')
       call keys%real_key('radius', body%radius, above(0.0_dp), 'm', 'Radius.', required=.true.)

@@ -62,6 +62,7 @@ module settings
    !> &body: a block of fluid at t = 0. After reading, `lower` and `upper` enclose a disc too.
    type :: body_settings
       character(choice_length) :: shape = 'rectangle'
+      character(choice_length) :: lattice = 'aligned'   !! how particles stand in a rectangle
       real(dp) :: lower(2) = [0.0_dp, 0.0_dp]      !! lower left corner [m]
       real(dp) :: upper(2) = [0.0_dp, 0.0_dp]      !! upper right corner [m]
       real(dp) :: centre(2) = [0.0_dp, 0.0_dp]     !! of a disc [m]

@@ -1,6 +1,11 @@
 !> Where the particles of a body stand at t = 0, and the area that each has.
 !!
 !! The areas of a body's particles add up to the body's area exactly.
+!!
+!! A rectangle's square lattice is aligned with its sides or turned by atan(3/5) = 31.0 degrees. Strain along its axes
+!! squeezes an aligned lattice into strings of particles that break up later. A square lattice at 31.7 degrees to the
+!! strain becomes itself again and again, its spacing never much smaller: Kraynik & Reinelt, Int. J. Multiphase Flow 18
+!! (1992) 1045-1059. At atan(3/5) it also fits a periodic box.
 module body_particles
    use kinds, only: dp
    use settings, only: body_settings
@@ -10,6 +15,10 @@ module body_particles
    public :: sites_t, count_sites, place_sites
 
    real(dp), parameter :: pi = acos(-1.0_dp)
+
+   ! The lattice of the vectors (5, 3) and (-3, 5) repeats itself after 34 = 5**2 + 3**2 rows; each row is shifted by 13
+   ! against the row below.
+   integer, parameter :: turned_rows = 34, turned_shift = 13
 
    !> Places of particles and the areas that they stand for.
    type :: sites_t
@@ -27,6 +36,8 @@ contains
 
       if (body%shape == 'disc') then
          n = sum([(on_ring(k), k=1, rings(body, dx))])
+      else if (body%lattice == 'turned') then
+         n = turned_rows*product(turned_cells(body, dx))
       else
          n = product(lattice(body, dx))
       end if
@@ -43,6 +54,8 @@ contains
       allocate (sites%x(n), sites%y(n), sites%area(n))
       if (body%shape == 'disc') then
          call place_on_rings(body, rings(body, dx), sites)
+      else if (body%lattice == 'turned') then
+         call place_on_turned_lattice(body, turned_cells(body, dx), sites)
       else
          call place_on_lattice(body, lattice(body, dx), sites)
       end if
@@ -75,6 +88,34 @@ contains
       end do
       sites%area = product(cell)
    end subroutine place_on_lattice
+
+   ! Cells of the turned lattice across and up: each is sqrt(34) dx wide and high, stretched to fill the body exactly.
+   pure function turned_cells(body, dx) result(n)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: dx
+      integer :: n(2)
+
+      n = max(1, nint((body%upper - body%lower)/(sqrt(real(turned_rows, dp))*dx)))
+   end function turned_cells
+
+   ! 34 rows in a cell, with one particle in each.
+   pure subroutine place_on_turned_lattice(body, n, sites)
+      type(body_settings), intent(in) :: body
+      integer, intent(in) :: n(2)
+      type(sites_t), intent(inout) :: sites
+      real(dp) :: unit(2)
+      integer :: i, j, k
+
+      unit = (body%upper - body%lower)/(turned_rows*n)
+      do j = 0, turned_rows*n(2) - 1
+         do i = 0, n(1) - 1
+            k = j*n(1) + i + 1
+            sites%x(k) = body%lower(1) + unit(1)*(turned_rows*i + mod(turned_shift*j, turned_rows) + 0.5_dp)
+            sites%y(k) = body%lower(2) + unit(2)*(j + 0.5_dp)
+         end do
+      end do
+      sites%area = turned_rows*product(unit)
+   end subroutine place_on_turned_lattice
 
    ! Rings of a disc, each dx wide, stretched to fill the disc exactly.
    pure integer function rings(body, dx)
