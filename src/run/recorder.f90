@@ -64,9 +64,11 @@ contains
       call self%when_snapshot%parse(trim(scene%output%snapshots), message)
       self%scale = new_time_scale(scene)
       call start_budget(self%budget, model, p, scene%domain%upper(1) - scene%domain%lower(1))
-      self%head = snapshot_head(title=trim(scene%scene%title), version=version, git_id=git_id, input_text=input_text, &
+      self%head = snapshot_head(version=version, git_id=git_id, input_text=input_text, &
                                 reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
                                 density=model%rho0, gravity=model%gravity)
+      ! Within the constructor gfortran 12 takes the length before trimming, and what is in memory after the title.
+      self%head%title = trim(scene%scene%title)
       if (self%when_energy%is_never()) then
          self%budget%has%rotation = .false.   ! no integral over time without its values
       else
