@@ -24,7 +24,7 @@ module report
    public :: start_box, closing_table, write_summary_file, estimate_t, estimate
 
    ! Measured cost of a step by utils/bench, for the estimate before a run.
-   real(dp), parameter :: typical_ns = 550.0_dp   ! per particle-step and core
+   real(dp), parameter :: ns_constant = 600.0_dp, ns_dynamic = 700.0_dp   ! per particle-step and core
    ! Violent flow takes more steps than dt = CFL h/c0 would give; measured in dam breaks (docs/results.md).
    real(dp), parameter :: typical_step_share = 0.8_dp
 
@@ -36,6 +36,7 @@ module report
       integer :: particles = 0
       real(dp) :: dt = 0        !! largest step, CFL h/c0
       real(dp) :: steps = 0
+      real(dp) :: ns = ns_constant   !! per particle-step and core
       real(dp) :: seconds = 0   !! of wall time
       real(dp) :: bytes = 0
    end type estimate_t
@@ -52,7 +53,8 @@ contains
       cost%dt = model%longest_step()
       cost%steps = scene%time%end_time/(typical_step_share*cost%dt)
       if (scene%time%max_steps > 0) cost%steps = min(cost%steps, real(scene%time%max_steps, dp))
-      cost%seconds = cost%steps*particles*typical_ns*1.0e-9_dp/omp_get_max_threads()
+      if (model%dynamic) cost%ns = ns_dynamic
+      cost%seconds = cost%steps*particles*cost%ns*1.0e-9_dp/omp_get_max_threads()
       ! Slots of padding and images, neighbour ranges and sorting besides the particles' own.
       cost%bytes = particles*(1.25_dp*bytes_per_slot(needed_features(scene)) + 60)
    end function estimate
@@ -81,7 +83,7 @@ contains
                     //short(cost%steps)//' steps to t = '//short(scene%time%end_time)
          lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
          lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
-                    //' (at '//short(typical_ns)//' ns per particle-step and core)'
+                    //' (at '//short(cost%ns)//' ns per particle-step and core)'
          lines(10) = 'output        energy '//trim(scene%output%energy)//', probes '//trim(scene%output%probes) &
                      //', snapshots '//trim(scene%output%snapshots)
          lines(11) = 'dynsph        '//version//' '//git_id//' '//build_type
