@@ -17,7 +17,7 @@ time = 'time_scaled'
 set tmargin at screen 0.94
 set bmargin at screen 0.42
 set title head_text(data, 'title') noenhanced font 'DejaVu Sans,14'
-set ylabel 'energy / ΔE_M^{tot}'
+set ylabel energy_axis('energy', data)
 set format x ''
 set yrange [*<0:*]
 curves = curve(data, 'Q_alpha/dE', 2, 'by viscosity, Q_α').curve(data, 'Q_delta/dE', 1, 'by density diffusion, Q_δ') \
@@ -39,12 +39,15 @@ set bmargin at screen 0.08
 unset title
 set format x '%g'
 set xlabel scaled_time_in(data)
-set ylabel '|error| / ΔE_M^{tot}'
+set ylabel energy_axis('|error|', data)
 set logscale y
 set format y '10^{%L}'
 set key bottom right
-set yrange [1e-8:1]
 positive(value) = value > 0 ? value : NaN    # a logarithmic axis has no zero
+largest_error = system("awk '!/^#/ && !column { for (k = 1; k <= NF; k++) if ($k == \"balance_error/dE\") column = k; next } \
+   column { e = $column < 0 ? -$column : $column; if (e > most) most = e } END { print most + 0 }' '".data."'") + 0
+# Errors of a few 1e-8 to 1, or whatever smaller ones there are.
+set yrange [largest_error > 1e-7 || largest_error <= 0 ? 1e-8 : 1e-3*largest_error:1]
 plot data using (column(time)):(positive(abs(column("balance_error/dE")))) with lines linetype 4 title 'error of the energy balance', \
      5e-3 with lines linetype 1 linewidth 1 linecolor rgb '#808080' dashtype 2 title '0.5 %'
 unset multiplot

@@ -9,10 +9,10 @@ set terminal pngcairo size 1200,700 font font
 set output dir.'/energy.png'
 set title head_text(data, 'title') noenhanced font 'DejaVu Sans,14'
 set xlabel scaled_time_in(data)
-set ylabel 'energy / ΔE_M^{tot}'
+set ylabel energy_axis('energy', data)
 set xrange [0:*]
 set yrange [*<0:*]
-set key inside right top box linecolor rgb '#d0d0d0' opaque height 0.3 width -1
+set key outside above center horizontal Left reverse   # no corner is empty in all scenes
 set rmargin 4
 set xzeroaxis linetype 1 linecolor rgb '#a0a0a0'
 

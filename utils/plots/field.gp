@@ -1,4 +1,4 @@
-# Particles of one snapshot coloured by speed and by pressure.
+# Particles of one snapshot coloured by speed and by pressure, or by other fields.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/field.gp      the last snapshot, as RESULT/field.png
 #
@@ -41,15 +41,18 @@ margin = 0.01*(x_max - x_min)
 wide = x_max - x_min + 2*margin
 high = y_max - y_min + 2*margin
 
-# Pixels: one unit of length is the same in both directions and in all panels.
+# Pixels: one unit of length is the same in both directions and in all panels. Wide frames stand one above the
+# other, high ones in two columns.
 left = 80; right = 150; above = 50; below = 34; foot = 26
-frame_x = 1170
+n = words(panels)
+columns = n > 1 && high > 0.5*wide ? 2 : 1
+rows = (n + columns - 1)/columns
+frame_x = columns == 1 ? 1170 : 720
 frame_y = int(frame_x*high/wide)
 if (frame_y > 900) { frame_x = int(900.0*frame_x/frame_y); frame_y = 900 }
 if (frame_x < 400) { frame_x = 400 }
-n = words(panels)
-size_x = left + frame_x + right
-size_y = n*(frame_y + above + below) + foot
+size_x = columns*(left + frame_x + right)
+size_y = rows*(frame_y + above + below) + foot
 
 # Quantities by their name: how they are labelled and what they are divided by.
 label(name) = name eq 'velocity' ? (scaled ? '|u| / √(gd)' : '|u|') : name eq 'pressure' ? (scaled ? 'p / (ρ_0 g d)' : 'p') \
@@ -72,18 +75,20 @@ set yrange [y_min - margin:y_max + margin]
 set xtics scale 0.4
 if (high < 1) { set ytics 0.2 scale 0.4 } else { set ytics scale 0.4 }
 set ylabel scaled ? 'y / d' : 'y' offset 1,0
-set lmargin at screen 1.0*left/size_x
-set rmargin at screen 1.0*(left + frame_x)/size_x
 set style fill solid noborder
 
 # Discs of the particle's size; below about two pixels they cost time and show no more than a dot does.
 pixels = frame_x*dx/d/wide
 do for [i=1:n] {
    name = word(panels, i)
-   bottom = foot + (n - i)*(frame_y + above + below) + below
+   row = (i - 1)/columns
+   start = left + ((i - 1)%columns)*(left + frame_x + right)
+   bottom = foot + (rows - 1 - row)*(frame_y + above + below) + below
+   set lmargin at screen 1.0*start/size_x
+   set rmargin at screen 1.0*(start + frame_x)/size_x
    set bmargin at screen 1.0*bottom/size_y
    set tmargin at screen 1.0*(bottom + frame_y)/size_y
-   set colorbox user origin screen 1.0*(left + frame_x + 18)/size_x, screen 1.0*bottom/size_y \
+   set colorbox user origin screen 1.0*(start + frame_x + 18)/size_x, screen 1.0*bottom/size_y \
       size screen 16.0/size_x, screen 1.0*frame_y/size_y
    place = number(name)
    scale = scale_of(name)
@@ -96,13 +101,25 @@ do for [i=1:n] {
    mean = range(name, 3)/scale; spread = 3*range(name, 4)/scale
    low = mean - spread > smallest ? mean - spread : smallest
    high_end = mean + spread < largest ? mean + spread : largest
-   if (low < 0.2*high_end && (smallest >= 0 || name eq 'pressure')) { low = 0 }
-   if (high_end <= low) { high_end = low + 1 }
+   # Below a free surface in a field of gravity the colours begin at no pressure, elsewhere suction is of interest.
+   if (low < 0.2*high_end && (smallest >= 0 || (name eq 'pressure' && scaled))) { low = 0 }
+   if (name eq 'vorticity') {
+      # White is no rotation, red anticlockwise, blue clockwise.
+      high_end = abs(low) > abs(high_end) ? abs(low) : abs(high_end)
+      if (high_end == 0) { high_end = 1 }
+      low = -high_end
+      set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')
+   } else {
+      eval viridis
+   }
+   # All the same: a range that has a width nevertheless.
+   if (high_end <= low) { high_end = low + (low == 0 ? 1 : 0.1*abs(low)) }
    set cbrange [low:high_end]
    set cblabel label(name) offset 0.5,0
    set title heading noenhanced font 'DejaVu Sans,14' offset 0,-0.3
    if (i > 1) { unset title }
-   set xlabel i == n ? (scaled ? 'x / d' : 'x') : '' offset 0,0.3
+   bottom_label = i > n - columns ? (scaled ? 'x / d' : 'x') : ''
+   set xlabel bottom_label offset 0,0.3
    if (pixels > 2) {
       plot table using (column(xc)/d):(column(yc)/d):(0.56*dx/d):(column(place)/scale) with circles linecolor palette
       continue

@@ -27,8 +27,9 @@ set linetype 6 linecolor rgb sky linewidth 1.8
 set linetype 7 linecolor rgb black linewidth 1.8
 
 # viridis: equal steps of the quantity look equal, also in grey.
-set palette defined (0.00 '#440154', 0.125 '#472d7b', 0.25 '#3b528b', 0.375 '#2c728e', 0.50 '#21918c', \
-   0.625 '#28ae80', 0.75 '#5ec962', 0.875 '#addc30', 1.00 '#fde725')
+viridis = "set palette defined (0.00 '#440154', 0.125 '#472d7b', 0.25 '#3b528b', 0.375 '#2c728e', 0.50 '#21918c', \
+   0.625 '#28ae80', 0.75 '#5ec962', 0.875 '#addc30', 1.00 '#fde725')"
+eval viridis
 
 # The value after '# key: ' in a file's head, '' when it is not there.
 head_text(file, key) = system("sed -n -e '/^[^#]/q' -e 's/^# ".key.": *//p' '".file."'")
@@ -40,3 +41,7 @@ has(file, name) = (sum [k=1:words(column_names(file))] (word(column_names(file),
 # Part of a plot command for one column against time, with a comma behind it; '' where the table has no such column.
 curve(file, name, style, label) = has(file, name) \
    ? sprintf("'%s' using (column('time_scaled')):(column('%s')) with lines linetype %d title '%s', ", file, name, style, label) : ''
+# What energies are divided by, as an axis label: Delta E_Mtot, or the other measure that the head names.
+scale_named_in(file) = system("sed -n -e '/^[^#]/q' -e 's/^# normalised by dE_Mtot = //p' '".file."'")
+energy_axis(quantity, file) = (scale_named_in(file)[1:10] eq 'E_M(0) - E') ? quantity.' / ΔE_M^{tot}' \
+   : (scale_named_in(file)[1:2] eq '1:') ? quantity : quantity.' / ('.scale_named_in(file).')'
