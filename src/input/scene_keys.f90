@@ -159,6 +159,8 @@ contains
       call keys%only_with("shape = 'disc'", body%shape == 'disc')
       call keys%vector_key('centre', body%centre, any_number(), 'm', 'Centre, x and y.')
       call keys%real_key('radius', body%radius, above(0.0_dp), 'm', 'Radius.', required=.true.)
+      call keys%choice_key('packing', body%packing, [character(choice_length) :: 'rings', 'lattice'], &
+                           'How its particles stand: on rings, or on what the disc covers of a square lattice.')
       call keys%always()
       call keys%choice_key('flow', body%flow, [character(choice_length) :: 'uniform', 'exact'], &
                            'Velocity at the start: the same everywhere, or that of &exact solution.')

@@ -63,6 +63,7 @@ module settings
    type :: body_settings
       character(choice_length) :: shape = 'rectangle'
       character(choice_length) :: lattice = 'aligned'   !! how particles stand in a rectangle
+      character(choice_length) :: packing = 'rings'     !! how particles stand in a disc
       real(dp) :: lower(2) = [0.0_dp, 0.0_dp]      !! lower left corner [m]
       real(dp) :: upper(2) = [0.0_dp, 0.0_dp]      !! upper right corner [m]
       real(dp) :: centre(2) = [0.0_dp, 0.0_dp]     !! of a disc [m]

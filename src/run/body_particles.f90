@@ -32,9 +32,16 @@ contains
    pure integer function count_sites(body, dx) result(n)
       type(body_settings), intent(in) :: body
       real(dp), intent(in) :: dx
-      integer :: k
+      integer :: j, k
 
-      if (body%shape == 'disc') then
+      if (body%shape == 'disc' .and. body%packing == 'lattice') then
+         associate (r => rings(body, dx))
+            n = 0
+            do j = -r, r - 1
+               n = n + count([(covered(k, j, r), k=-r, r - 1)])
+            end do
+         end associate
+      else if (body%shape == 'disc') then
          n = sum([(on_ring(k), k=1, rings(body, dx))])
       else if (body%lattice == 'turned') then
          n = turned_rows*product(turned_cells(body, dx))
@@ -52,7 +59,9 @@ contains
 
       n = count_sites(body, dx)
       allocate (sites%x(n), sites%y(n), sites%area(n))
-      if (body%shape == 'disc') then
+      if (body%shape == 'disc' .and. body%packing == 'lattice') then
+         call place_on_cut_lattice(body, rings(body, dx), sites)
+      else if (body%shape == 'disc') then
          call place_on_rings(body, rings(body, dx), sites)
       else if (body%lattice == 'turned') then
          call place_on_turned_lattice(body, turned_cells(body, dx), sites)
@@ -124,6 +133,32 @@ contains
 
       rings = max(1, nint(body%radius/dx))
    end function rings
+
+   ! Whether a disc of radius r covers the middle of cell (i, j) of the lattice of unit cells.
+   pure logical function covered(i, j, r)
+      integer, intent(in) :: i, j, r
+
+      covered = (i + 0.5_dp)**2 + (j + 0.5_dp)**2 <= r**2
+   end function covered
+
+   ! What the disc covers of a square lattice; equal areas that make up the disc's.
+   pure subroutine place_on_cut_lattice(body, r, sites)
+      type(body_settings), intent(in) :: body
+      integer, intent(in) :: r   ! radius in cells
+      type(sites_t), intent(inout) :: sites
+      integer :: i, j, slot
+
+      slot = 0
+      do j = -r, r - 1
+         do i = -r, r - 1
+            if (.not. covered(i, j, r)) cycle
+            slot = slot + 1
+            sites%x(slot) = body%centre(1) + body%radius/r*(i + 0.5_dp)
+            sites%y(slot) = body%centre(2) + body%radius/r*(j + 0.5_dp)
+         end do
+      end do
+      sites%area = pi*body%radius**2/slot
+   end subroutine place_on_cut_lattice
 
    ! Particles on ring k: its area pi (2k - 1) dx**2 in parts of about dx**2.
    pure integer function on_ring(k)
