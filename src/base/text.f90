@@ -4,7 +4,7 @@ module text
    implicit none
    private
 
-   public :: to_text, short, parse_real, parse_integer, lower_case, quoted, nearest_word, edit_distance
+   public :: to_text, short, parse_real, parse_integer, lower_case, quoted, nearest_word
 
    integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large

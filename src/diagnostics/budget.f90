@@ -13,7 +13,7 @@ module budget
    implicit none
    private
 
-   public :: budget_t, terms_t, works_t, start_budget, update_budget, add_rotation, fluid_mass
+   public :: budget_t, terms_t, works_t, start_budget, update_budget, add_rotation
 
    !> What a scene's budget consists of besides kinetic and elastic energy.
    type :: terms_t

@@ -18,7 +18,7 @@ module exact_solution
    implicit none
    private
 
-   public :: exact_solution_t, new_exact_solution, shear_on_lattice
+   public :: exact_solution_t, new_exact_solution
 
    real(dp), parameter, public :: continuum_shear = 1.0_dp/8   !! nu/(alpha h c0) by eq. 17
    real(dp), parameter :: pi = acos(-1.0_dp)

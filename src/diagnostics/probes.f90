@@ -13,7 +13,7 @@ module probes
    implicit none
    private
 
-   public :: sensor_t, new_sensor, measure_sensor, pressure_near
+   public :: sensor_t, new_sensor, measure_sensor
 
    !> A disc on a wall as quadrature points.
    type :: sensor_t

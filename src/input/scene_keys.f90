@@ -9,7 +9,7 @@ module scene_keys
    implicit none
    private
 
-   public :: visit_keys, field_names
+   public :: visit_keys
 
    !> Least and largest d/dx: coarser has no meaning, finer surely is a slip.
    real(dp), parameter, public :: resolution_range(2) = [4.0_dp, 20000.0_dp]
