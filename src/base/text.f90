@@ -303,7 +303,10 @@ contains
       decimals = 3
       if (abs(value) > 0) decimals = 3 - floor(log10(abs(value)))
       if (decimals > 7 .or. decimals < -5) then
-         write (buffer, '(es10.3)') value
+         ! 8.000E+300 needs a third digit, or the E goes.
+         form = '(es10.3)'
+         if (decimals > 99 .or. decimals < -93) form = '(es12.3e3)'
+         write (buffer, form) value
          words = trim(adjustl(buffer))
          return
       end if

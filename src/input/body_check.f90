@@ -24,6 +24,7 @@ contains
 
       do i = 1, size(setup%bodies)
          call check_size(document, setup, i, notes)
+         call check_turned(document, setup, i, notes)
          call check_place(document, setup, i, notes)
          call check_pressure(document, setup, i, notes)
          call check_overlap(document, setup, i, notes)
@@ -67,6 +68,28 @@ contains
          end if
       end associate
    end subroutine check_size
+
+   !> Whole cells of the turned lattice must fill the body without being stretched much.
+   subroutine check_turned(document, setup, number, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(in) :: setup
+      integer, intent(in) :: number
+      type(findings_t), intent(inout) :: notes
+
+      real(dp), parameter :: cell = sqrt(34.0_dp), largest_stretch = 1.25_dp   ! cell in dx: module body_particles
+      real(dp) :: cells(2), stretch(2)
+
+      if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
+      associate (body => setup%bodies(number), dx => setup%spacing())
+         if (body%shape == 'disc' .or. body%lattice /= 'turned') return
+         cells = (body%upper - body%lower)/(cell*dx)
+         stretch = cells/max(1.0_dp, anint(cells))
+         if (all(max(stretch, 1.0_dp/stretch) <= largest_stretch)) return
+         call notes%mistake(document%place_of('body', number, 'lattice'), 'body', "&body lattice = 'turned' consists of cells of " &
+                            //short(cell*dx)//' (5.83 dx), and '//to_text(body%upper - body%lower)//' is no multiple of that; ' &
+                            //"raise the resolution or choose lattice = 'aligned'")
+      end associate
+   end subroutine check_turned
 
    !> A body must stay behind walls and between periodic sides.
    subroutine check_place(document, setup, number, notes)

@@ -7,6 +7,7 @@ module exact_check
    use namelist_document, only: document_t
    use scene_needs, only: need_full_box, need_no_weight, need_one_body, need_open_sides, need_width, needs_t, &
                           same, slack
+   use scene_keys, only: with_waves
    use settings, only: choice_length, settings_t, side_names
    use text, only: short, to_text
    implicit none
@@ -80,6 +81,7 @@ contains
             call needs%unless(abs(setup%exact%amplitude) > 0.0_dp, 'an amplitude that is not 0', 'exact', 'amplitude')
             call needs%unless(all(setup%bodies%flow == 'exact'), "&body flow = 'exact', or its motion is not there", 'body', 'flow')
          end if
+         if (any(solution == with_waves)) call need_long_waves(setup, needs)
          select case (solution)
          case ('hydrostatic', 'standing_wave')
             call need_tank(setup, needs)
@@ -103,6 +105,19 @@ contains
       end associate
    end subroutine add_needs
 
+   ! Waves that particles can show.
+   subroutine need_long_waves(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      real(dp), parameter :: least_length = 4.0_dp   ! of a wave, in dx
+      real(dp) :: most
+
+      most = (setup%domain%upper(1) - setup%domain%lower(1))/(least_length*setup%spacing())
+      call needs%unless(setup%exact%waves <= most*(1.0_dp + slack), 'at most '//to_text(int(min(most*(1.0_dp + slack), 1.0e9_dp))) &
+                        //' waves in the box: shorter ones than 4 dx cannot be seen in particles', 'exact', 'waves')
+   end subroutine need_long_waves
+
    ! Water on a floor from one side to the other.
    subroutine need_tank(setup, needs)
       type(settings_t), intent(in) :: setup
@@ -114,7 +129,7 @@ contains
       call needs%unless(setup%fluid%gravity > 0.0_dp, 'gravity above 0', 'fluid', 'gravity')
       kinds_there = setup%side_kinds()
       if (setup%exact%solution == 'standing_wave') then
-         call needs%unless(abs(setup%exact%amplitude) < 1.0_dp, 'an amplitude below 1: it is wave height/depth', &
+         call needs%unless(abs(setup%exact%amplitude) < 1.0_dp, 'an amplitude between -1 and 1: it is wave height/depth', &
                            'exact', 'amplitude')
          do i = 1, 3
             call needs%unless(kinds_there(i) == 'free_slip' .or. (kinds_there(i) == 'periodic' .and. i < 3), &
@@ -214,8 +229,8 @@ contains
          else
             call needs%unless(all(any_of(setup%side_kinds(), 'free_slip', 'periodic')), &
                               "bottom and top that are 'free_slip' or 'periodic'", 'domain', 'bottom')
-            call needs%unless(abs(setup%exact%amplitude) < 0.1_dp, 'an amplitude below 0.1: it is a share of the density', &
-                              'exact', 'amplitude')
+            call needs%unless(abs(setup%exact%amplitude) < 0.1_dp, &
+                              'an amplitude between -0.1 and 0.1: it is a share of the density', 'exact', 'amplitude')
             call needs%unless(all(setup%bodies%pressure == 'exact'), "&body pressure = 'exact', or it does not travel", &
                               'body', 'pressure')
          end if

@@ -26,7 +26,7 @@ module scene_keys
    !> Those that &exact amplitude and &exact waves belong to.
    character(choice_length), parameter :: with_amplitude(*) = [character(choice_length) :: &
       'standing_wave', 'oscillating_drop', 'taylor_green', 'acoustic_wave', 'rotating_square']
-   character(choice_length), parameter :: with_waves(*) = [character(choice_length) :: &
+   character(choice_length), parameter, public :: with_waves(*) = [character(choice_length) :: &
       'standing_wave', 'taylor_green', 'acoustic_wave']
 
    !> What snapshots can hold.

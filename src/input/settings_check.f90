@@ -22,6 +22,7 @@ module settings_check
 
    real(dp), parameter :: good_mach = 0.1_dp         ! eq. 4: density varies by 1 %
    real(dp), parameter :: most_particles = 2.0e8_dp  ! positions in the arrays stay below 2**31
+   real(dp), parameter :: most_steps = 2.0e9_dp      ! counted in default integers
    real(dp), parameter :: slack = 1.0e-9_dp          ! relative; rounding of the input
 
 contains
@@ -38,6 +39,7 @@ contains
       call check_viscosity(document, setup, notes)
       call check_bodies(document, setup, notes)
       call check_particle_number(document, setup, notes)
+      call check_step_number(document, setup, notes)
       call check_exact(document, setup, notes)
       call check_output(document, setup, notes)
    end subroutine check_settings
@@ -192,6 +194,28 @@ contains
       read (buffer, *) rounded
       words = to_text(rounded)
    end function trimmed_number
+
+   !> A run that cannot end is a slip: with more steps than can be counted, time would not even get on by one.
+   subroutine check_step_number(document, setup, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(in) :: setup
+      type(findings_t), intent(inout) :: notes
+
+      real(dp) :: delta, cfl, per_step
+      character(:), allocatable :: advice
+
+      if (.not. (notes%clean('time') .and. notes%clean('model') .and. notes%clean('fluid') .and. notes%clean('scene'))) return
+      if (setup%time%max_steps > 0) return
+      delta = 0.0_dp
+      if (setup%model%diffusion == 'constant') delta = setup%model%delta
+      cfl = min(setup%time%cfl, largest_cfl(delta, setup%alpha_total()))
+      per_step = cfl*setup%smoothing_length()/setup%fluid%sound_speed
+      if (setup%time%end_time <= most_steps*per_step) return
+      advice = 'raise cfl, or lower end_time or the sound speed '//short(setup%fluid%sound_speed)
+      if (cfl < setup%time%cfl) advice = 'lower the viscosity, which makes them so short, or end_time'
+      call notes%mistake(document%place_of('time', 1, 'end_time'), 'time', '&time end_time = '//to_text(setup%time%end_time) &
+                         //' is more than '//to_text(most_steps)//' steps of '//short(per_step)//': '//advice)
+   end subroutine check_step_number
 
    !> All particles must fit.
    subroutine check_particle_number(document, setup, notes)

@@ -245,12 +245,12 @@ contains
       real(dp), intent(in) :: seconds
       type(log_t), intent(inout) :: log
 
-      call log%line('reference_speed = '//short(scene%fluid%reference_speed)//': '//short(100*particle_share) &
-                    //' % of the particles stay below it '//short(100*time_share)//' % of the time, by '//short(100*(margin - 1)) &
-                    //' %; c0 = '//short(scene%fluid%sound_speed)//' for Ma '//short(scene%fluid%mach))
+      call log%line('reference_speed = '//short(scene%fluid%reference_speed)//', '//short(margin)//' times what ' &
+                    //short(100*particle_share)//' % of the particles stay below for '//short(100*time_share) &
+                    //' % of the time; c0 = '//short(scene%fluid%sound_speed)//' for Ma '//short(scene%fluid%mach))
       call log%line('this took '//short(seconds)//' s, about '//short(100*cost)//' % of the cost of the run')
       if (cost > largest_cost) call log%line('that is more than '//short(100*largest_cost) &
-                                             //' %: with fewer particles the scene would be another one')
+                                             //' %: still fewer particles would not show what this flow does')
    end subroutine report
 
 end module preliminary

@@ -34,7 +34,7 @@ module report
    !> What a run will cost, roughly.
    type :: estimate_t
       integer :: particles = 0
-      real(dp) :: dt = 0        !! largest step, CFL h/c0
+      real(dp) :: dt = 0        !! largest step
       real(dp) :: steps = 0
       real(dp) :: ns = ns_constant   !! per particle-step and core
       real(dp) :: seconds = 0   !! of wall time
@@ -67,29 +67,55 @@ contains
       type(estimate_t), intent(in) :: cost
       character(160) :: lines(11)
 
-      associate (d => scene%scene%reference_length, speed => reference_speed(scene))
-         lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
-                    //', h = 2 dx = '//short(model%kernel%h)
-         lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
-         lines(3) = 'diffusion     '//diffusion_text(scene, model)
-         lines(4) = 'Reynolds      none: alpha = 0'
-         if (model%dynamic) lines(4) = 'Reynolds      none: viscosity = 0'
-         if (model%alpha > 0) lines(4) = 'Reynolds      Re = '//short(8*speed*d/(model%alpha*model%kernel%h*model%c0)) &
-            //', Re_dx = '//short(8*speed*model%dx/(model%alpha*model%kernel%h*model%c0)) &
-            //' (U = '//short(speed)//')'
-         lines(5) = 'uses          '//used(scene, model)
-         lines(6) = 'leaves out    '//unused(scene, model)
-         lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(model%cfl)//'), about ' &
-                    //short(cost%steps)//' steps to t = '//short(scene%time%end_time)
-         lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
-         lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
-                    //' (at '//short(cost%ns)//' ns per particle-step and core)'
-         lines(10) = 'output        energy '//trim(scene%output%energy)//', probes '//trim(scene%output%probes) &
-                     //', snapshots '//trim(scene%output%snapshots)
-         lines(11) = 'dynsph        '//version//' '//git_id//' '//build_type
-      end associate
+      lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
+                 //', h = 2 dx = '//short(model%kernel%h)
+      lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
+      lines(3) = 'diffusion     '//diffusion_text(scene, model)
+      lines(4) = 'Reynolds      '//reynolds_text(scene, model)
+      lines(5) = 'uses          '//used(scene, model)
+      lines(6) = 'leaves out    '//unused(scene, model)
+      lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(cost%dt*model%c0/model%kernel%h)//'), about ' &
+                 //short(anint(cost%steps))//' steps to t = '//short(scene%time%end_time)
+      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
+      lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
+                 //' (at '//short(cost%ns)//' ns per particle-step and core)'
+      lines(10) = 'output        '//output_text(scene)
+      lines(11) = 'dynsph        '//version//' '//git_id//' '//build_type
       call log%box(trim(scene%scene%title), lines)
    end subroutine start_box
+
+   ! Of the viscosity that acts everywhere, over the reference length and over a particle.
+   function reynolds_text(scene, model) result(words)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+      real(dp) :: speed, nu
+
+      speed = reference_speed(scene)
+      nu = model%alpha*model%kernel%h*model%c0/8   ! eq. 17
+      if (.not. nu > 0) then
+         words = 'none: alpha = 0'
+         if (model%dynamic) words = 'none: viscosity = 0'
+      else if (.not. speed > 0) then
+         words = 'unknown: reference_speed is not given'
+      else
+         words = 'Re = '//short(speed*scene%scene%reference_length/nu)//', Re_dx = '//short(speed*model%dx/nu) &
+                 //' (U = '//short(speed)//')'
+      end if
+   end function reynolds_text
+
+   ! What is written how often, of what the scene has.
+   pure function output_text(scene) result(words)
+      type(settings_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      associate (output => scene%output)
+         words = 'energy '//trim(output%energy)
+         if (size(scene%probes) > 0) words = words//', probes '//trim(output%probes)
+         if (scene%exact%solution /= 'none') words = words//', errors '//trim(output%errors)
+         words = words//', snapshots '//trim(output%snapshots)
+      end associate
+   end function output_text
 
    function threads_text() result(words)
       character(:), allocatable :: words
@@ -123,20 +149,23 @@ contains
    function used(scene, model) result(words)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      character(:), allocatable :: words
+      character(:), allocatable :: words, kind_of_images
 
       words = 'RK4'
       if (model%gravity > 0) words = words//', gravity'
       if (model%has_force()) words = words//', uniform force'
       if (model%central_rate > 0) words = words//', central force'
       associate (walls => model%walls)
-         if (any(walls%present)) words = words//', '//trim(scene%domain%images)//' images ('//sides_text(walls%present)//')'
+         kind_of_images = ', mirror'
+         if (any(abs(walls%density_slope) > 0)) kind_of_images = ', hydrostatic'
+         if (any(walls%present)) words = words//kind_of_images//' images ('//sides_text(walls%present)//')'
          if (any(walls%no_slip)) words = words//', no slip ('//sides_text(walls%no_slip)//')'
          if (any(walls%periodic)) words = words//', periodic ('//sides_text(walls%periodic([1, 1, 2, 2]))//')'
       end associate
       if (model%dynamic) words = words//', strain rate'
       if (model%alpha > 0 .or. model%dynamic) words = words//', viscosity'
       if (model%delta > 0 .or. model%dynamic) words = words//', density diffusion'
+      if (scene%exact%solution /= 'none') words = words//', exact solution'
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
    end function used
 
@@ -177,13 +206,16 @@ contains
       type(budget_t), intent(in) :: budget
       type(step_t), intent(in) :: run
       character(*), intent(in) :: path      !! result directory
-      character(160) :: lines(4)
+      character(160) :: lines(5)
+      integer :: n
 
+      n = merge(5, 4, run%limited > 0)
       lines = [character(160) :: dissipation_text(budget), works_text(budget), &
                'largest Ma '//short(run%largest_mach)//', largest |rho - rho0|/rho0 '//short(run%largest_variation), &
                to_text(run%crossings)//' wall crossings, '//to_text(run%singular)//' particle-steps without gradient, ' &
-               //to_text(run%repeated)//' steps repeated']
-      call log%box('Budget', lines)
+               //to_text(run%repeated)//' steps repeated', &
+               to_text(run%limited)//' of '//to_text(run%step)//' steps shorter than cfl asks for: diffusion would not be stable']
+      call log%box('Budget', lines(:n))
       call log%box('Wall time', timers%table(seconds))
       call log%line('results in '//path//', what each file is: docs/files.md')
    end subroutine closing_table
@@ -235,7 +267,8 @@ contains
       call file%add('threads', omp_get_max_threads())
       call file%add('run_seconds', seconds)
       call file%add('particle_steps_per_second', rate)
-      call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/max(rate, tiny(1.0_dp)))
+      if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/rate)
+      if (.not. rate > 0) call file%add('ns_per_particle_step_per_core', 'none')
       call summarise_budget(recorder%budget, file)
       call file%add('max_density_variation', run%largest_variation)
       call file%add('max_mach', run%largest_mach)

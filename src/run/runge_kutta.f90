@@ -2,8 +2,8 @@
 !!
 !! Source: sec. 2 of the paper; the works are summed with the stage states and the weights of the scheme (docs/equations.md).
 module runge_kutta
+   use crossing, only: outside, reflect, wrap
    use flow, only: rates_t
-   use images, only: outside, reflect, wrap
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t

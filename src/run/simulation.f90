@@ -16,7 +16,7 @@ module simulation
    use settings, only: settings_t
    use step_check, only: check_step
    use text, only: short
-   use time_step, only: advance, refresh, step_t
+   use time_step, only: advance, refresh, start_extremes, step_t
    use timers, only: timers_t, wall_seconds
    implicit none
    private
@@ -60,6 +60,7 @@ contains
                             //short(model%walls%at(bottom_wall))//', the lower side of &domain: move the bodies closer')
          return
       end if
+      call start_extremes(model, p, run)
       call recorder%start(scene, input_text, model, p, directory, problem)
       if (problem%raised()) then
          call recorder%finish(closing)

@@ -18,7 +18,7 @@ module time_step
    implicit none
    private
 
-   public :: step_t, refresh, advance
+   public :: step_t, refresh, advance, start_extremes
 
    integer, parameter :: block_clusters = 64   !! clusters that a thread takes at a time, and that sums go over
    integer, parameter, public :: phase_sort = 1, phase_gradients = 2, phase_diffusion = 3, phase_stages = 4
@@ -36,9 +36,9 @@ module time_step
       real(dp) :: work_delta = 0            !! energy given by density diffusion
       real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
       real(dp) :: work_force = 0            !! energy given by the uniform force
-      real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, at the end of the last step
-      real(dp) :: speed = 0                 !! max |u| at the end of the last step
-      real(dp) :: variation = 0             !! max |rho - rho0|/rho0 at the end of the last step
+      real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
+      real(dp) :: speed = 0                 !! max |u| of the base state
+      real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
       real(dp) :: largest_mach = 0          !! over all steps
       real(dp) :: largest_variation = 0     !! over all steps
       integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none
@@ -46,6 +46,35 @@ module time_step
    end type step_t
 
 contains
+
+   !> Extremes of the state that the run starts with; steps take those of the states they end with.
+   pure subroutine start_extremes(model, p, run)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p         !! base state
+      type(step_t), intent(inout) :: run
+      real(dp) :: speed_2, pressure, largest_s   ! pressure: p/rho
+
+      associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
+         speed_2 = maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own)
+         pressure = maxval(model%c0**2*s/(model%rho0 + s), mask=own)
+         largest_s = maxval(abs(s), mask=own)
+      end associate
+      call take_extremes(model, speed_2, pressure, largest_s, run)
+   end subroutine start_extremes
+
+   pure subroutine take_extremes(model, speed_2, pressure, largest_s, run)
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: speed_2     !! largest |u|**2
+      real(dp), intent(in) :: pressure    !! largest p/rho
+      real(dp), intent(in) :: largest_s   !! largest |rho - rho0|
+      type(step_t), intent(inout) :: run
+
+      run%speed = sqrt(speed_2)
+      run%mach = sqrt(max(speed_2, pressure))/model%c0
+      run%variation = largest_s/model%rho0
+      run%largest_mach = max(run%largest_mach, run%mach)
+      run%largest_variation = max(run%largest_variation, run%variation)
+   end subroutine take_extremes
 
    !> Sorts the particles, mirrors them and lists neighbours: `base` is then the state at `time`.
    subroutine refresh(model, p, near, run, timers)
@@ -254,11 +283,7 @@ contains
       run%work_force = run%work_force + sum(blocks%work(4))
       run%crossings = run%crossings + sum(blocks%crossings)
       run%singular = run%singular + sum(blocks%singular)
-      run%speed = sqrt(maxval(blocks%speed_2))
-      run%mach = sqrt(max(maxval(blocks%speed_2), maxval(blocks%pressure)))/model%c0
-      run%variation = maxval(blocks%largest_s)/model%rho0
-      run%largest_mach = max(run%largest_mach, run%mach)
-      run%largest_variation = max(run%largest_variation, run%variation)
+      call take_extremes(model, maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), run)
       run%lost_slot = maxval(blocks%lost_slot)
    end subroutine collect
 
