@@ -23,6 +23,7 @@ module settings_check
    real(dp), parameter :: good_mach = 0.1_dp         ! eq. 4: density varies by 1 %
    real(dp), parameter :: most_particles = 2.0e8_dp  ! positions in the arrays stay below 2**31
    real(dp), parameter :: most_steps = 2.0e9_dp      ! counted in default integers
+   real(dp), parameter :: many_times = 2.0_dp        ! shorter steps that are worth a warning
    real(dp), parameter :: slack = 1.0e-9_dp          ! relative; rounding of the input
 
 contains
@@ -124,6 +125,10 @@ contains
          if (setup%model%diffusion == 'dynamic') then
             limit = cfl_acoustic
             advice = ': at most '//to_text(limit)//'; lower cfl'
+            if (setup%model%limit*cfl > many_times*cfl_times_delta) call notes%warning( &
+               document%place_of('model', 1, 'limit'), '&model limit = '//to_text(setup%model%limit)//' may make steps ' &
+               //short(setup%model%limit*cfl/cfl_times_delta)//' times shorter: delta_i = '//to_text(setup%model%limit) &
+               //' is stable to cfl = '//rounded_down(cfl_times_delta/setup%model%limit)//' only')
          else
             limit = largest_cfl(delta, 0.0_dp)
             advice = ' with delta = '//to_text(delta)//': at most '//rounded_down(limit)//' = min(2.49, 0.294/delta); lower cfl'

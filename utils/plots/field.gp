@@ -57,9 +57,9 @@ size_y = rows*(frame_y + above + below) + foot
 # Quantities by their name: how they are labelled and what they are divided by.
 label(name) = name eq 'velocity' ? (scaled ? '|u| / √(gd)' : '|u|') : name eq 'pressure' ? (scaled ? 'p / (ρ_0 g d)' : 'p') \
    : name eq 'vorticity' ? (scaled ? 'ω √(d/g)' : 'ω') : name eq 'dissipation' ? (scaled ? 'Q_i / (ρ_0 g d dx^2)' : 'Q_i / dx^2') \
-   : name eq 'alpha' ? 'α_i' : name eq 'delta' ? 'δ_i' : name
+   : name eq 'density' ? (scaled ? 'ρ / ρ_0' : 'ρ') : name eq 'alpha' ? 'α_i' : name eq 'delta' ? 'δ_i' : name
 scale_of(name) = name eq 'velocity' ? sqrt(g*d) : name eq 'pressure' ? rho*g*d : name eq 'vorticity' ? sqrt(g/d) \
-   : name eq 'dissipation' ? rho*g*d*dx**2 : 1.0
+   : name eq 'dissipation' ? rho*g*d*dx**2 : name eq 'density' ? rho : 1.0
 heading = head_text(table, 'title')
 if (scaled) { heading = heading.sprintf('     t √(g/d) = %.2f', time*sqrt(g/d)) } else { heading = heading.sprintf('     t = %.4g', time) }
 
