@@ -89,8 +89,12 @@ contains
             call need_drop(setup, needs)
          case ('impact')
             call need_impact(setup, needs)
-         case ('taylor_green', 'acoustic_wave')
+         case ('taylor_green')
             call need_periodic_box(setup, needs)
+         case ('acoustic_wave')
+            call need_periodic_box(setup, needs)
+            ! The speed of sound on a lattice is worked out along its rows.
+            call needs%unless(all(setup%bodies%lattice == 'aligned'), "lattice = 'aligned'", 'body', 'lattice')
          case ('couette', 'poiseuille')
             call need_channel(setup, needs)
          case ('rotating_square')
