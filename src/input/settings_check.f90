@@ -139,7 +139,7 @@ contains
       end associate
    end subroutine check_stability
 
-   !> Says when two viscosities act, and when the viscous limit dt <= 0.1165 h**2/nu will rule the time step.
+   !> Says when two viscosities act, and when the viscous limit dt <= 0.0625 h**2/nu will rule the time step.
    subroutine check_viscosity(document, setup, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
@@ -170,7 +170,7 @@ contains
                      //' or a sound speed above '//short(setup%fluid%sound_speed*factor)
          end if
          call notes%warning(place, '&time cfl = '//to_text(setup%time%cfl)//' will not be used: with alpha = '//short(alpha) &
-                            //', viscosity included, the viscous limit dt <= 0.1165 h**2/nu is that of cfl = ' &
+                            //', viscosity included, the viscous limit dt <= 0.0625 h**2/nu is that of cfl = ' &
                             //rounded_down(cfl_times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice)
       end associate
    end subroutine check_viscosity

@@ -40,7 +40,7 @@ contains
 
    !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8, and no more than is linearly stable with the diffusive coefficients.
    !!
-   !! The paper leaves out the second limit; for viscosity it is dt <= 0.1165 h**2/nu (module linear_stability).
+   !! The paper leaves out the second limit; for viscosity it is dt <= 0.0625 h**2/nu (module linear_stability).
    pure real(dp) function step_limit(self, largest_pi, largest_alpha, largest_delta)
       class(model_t), intent(in) :: self
       real(dp), intent(in) :: largest_pi      !! over all pairs
