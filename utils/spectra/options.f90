@@ -1,0 +1,177 @@
+!> The command line of a utility: files and options, each option with a value, a default and a line of help.
+module options
+   use errors, only: exit_input, failure
+   use kinds, only: dp
+   use text, only: nearest_word, parse_integer, parse_real, quoted
+   implicit none
+   private
+
+   public :: options_t
+
+   integer, parameter :: name_length = 24, value_length = 240
+
+   !> One option.
+   type :: option_t
+      character(name_length) :: name = ''       !! with its dashes
+      character(name_length) :: value_name = '' !! '' for a switch, which takes none
+      character(value_length) :: value = ''     !! what the user said, else the default
+      character(value_length) :: meaning = ''
+      logical :: given = .false.                !! the user said it
+   end type option_t
+
+   !> What a command takes and what the user gave it.
+   type :: options_t
+      character(:), allocatable :: command      !! as typed: 'dynsph-spectra probe'
+      character(:), allocatable :: files(:)     !! arguments that are no options
+      logical :: help = .false.                 !! --help was there
+      type(option_t), allocatable :: list(:)
+   contains
+      procedure :: add
+      procedure :: parse
+      procedure :: write_help
+      procedure :: given
+      procedure :: word
+      procedure :: real_number
+      procedure :: integer_number
+      procedure, private :: place
+   end type options_t
+
+contains
+
+   !> Declares an option; in the order of the help.
+   subroutine add(self, name, value_name, default, meaning)
+      class(options_t), intent(inout) :: self
+      character(*), intent(in) :: name, value_name, default, meaning
+
+      if (.not. allocated(self%list)) allocate (self%list(0))
+      self%list = [self%list, option_t(name, value_name, default, meaning)]
+   end subroutine add
+
+   !> Takes the arguments apart. Raises exit_input with what is unknown or lacks its value.
+   subroutine parse(self, arguments, problem)
+      class(options_t), intent(inout) :: self
+      character(*), intent(in) :: arguments(:)
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: name
+      integer :: at, equals, i
+
+      self%files = arguments(:0)
+      at = 0
+      do while (at < size(arguments))
+         at = at + 1
+         if (index(arguments(at), '--') /= 1) then
+            self%files = [self%files, arguments(at)]
+            cycle
+         end if
+         equals = index(arguments(at), '=')
+         name = trim(arguments(at))
+         if (equals > 0) name = arguments(at) (:equals - 1)
+         if (name == '--help') then
+            self%help = .true.
+            cycle
+         end if
+         i = self%place(name)
+         if (i == 0) then
+            call problem%raise(exit_input, self%command//': no option '//name//'; '//did_you_mean(self, name)//self%command &
+                               //' --help lists them')
+         else if (self%list(i)%value_name == '') then
+            if (equals > 0) call problem%raise(exit_input, self%command//': '//name//' takes no value')
+            self%list(i)%given = .true.
+         else if (equals > 0) then
+            call take(self%list(i), arguments(at) (equals + 1:))
+         else if (at == size(arguments)) then
+            call problem%raise(exit_input, self%command//': '//name//' needs its '//trim(self%list(i)%value_name))
+         else
+            at = at + 1
+            call take(self%list(i), arguments(at))
+         end if
+      end do
+   end subroutine parse
+
+   subroutine take(option, value)
+      type(option_t), intent(inout) :: option
+      character(*), intent(in) :: value
+
+      option%value = value
+      option%given = .true.
+   end subroutine take
+
+   pure function did_you_mean(self, name) result(hint)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable :: hint
+
+      hint = trim(nearest_word(name, self%list%name))
+      if (hint /= '') hint = 'did you mean '//hint//'? '
+   end function did_you_mean
+
+   !> One line for each option.
+   subroutine write_help(self, unit)
+      class(options_t), intent(in) :: self
+      integer, intent(in) :: unit
+      character(2*name_length + 1) :: option
+      character(value_length + 3) :: default
+      integer :: i
+
+      do i = 1, size(self%list)
+         associate (o => self%list(i))
+            option = trim(o%name)//' '//o%value_name
+            default = ''
+            if (o%value_name /= '' .and. o%value /= '') default = ' ['//trim(o%value)//']'
+            write (unit, '(2x, a26, 2a)') option, trim(o%meaning), trim(default)
+         end associate
+      end do
+      write (unit, '(2x, a26, a)') '--help', 'this text'
+   end subroutine write_help
+
+   pure integer function place(self, name)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      integer :: i
+
+      place = 0
+      do i = 1, size(self%list)
+         if (self%list(i)%name == name) place = i
+      end do
+   end function place
+
+   !> Whether the user said it.
+   pure logical function given(self, name)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+
+      given = self%list(self%place(name))%given
+   end function given
+
+   !> Its value as a word.
+   pure function word(self, name)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable :: word
+
+      word = trim(self%list(self%place(name))%value)
+   end function word
+
+   !> Its value as a number; raises exit_input if it is none.
+   real(dp) function real_number(self, name, problem)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: message
+
+      call parse_real(self%word(name), real_number, message)
+      if (message /= '') call problem%raise(exit_input, self%command//': '//name//' '//quoted(self%word(name))//': '//message)
+   end function real_number
+
+   !> Its value as a whole number; raises exit_input if it is none.
+   integer function integer_number(self, name, problem)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: message
+
+      call parse_integer(self%word(name), integer_number, message)
+      if (message /= '') call problem%raise(exit_input, self%command//': '//name//' '//quoted(self%word(name))//': '//message)
+   end function integer_number
+
+end module options
