@@ -55,7 +55,7 @@ contains
       character(:), allocatable :: name
       integer :: at, equals, i
 
-      self%files = arguments(:0)
+      allocate (character(len(arguments)) :: self%files(0))
       at = 0
       do while (at < size(arguments))
          at = at + 1
