@@ -53,14 +53,15 @@ contains
       character(*), intent(in) :: arguments(:)
       type(failure), intent(inout) :: problem
       character(:), allocatable :: name
+      logical :: is_file(size(arguments))
       integer :: at, equals, i
 
-      allocate (character(len(arguments)) :: self%files(0))
+      is_file = .false.
       at = 0
       do while (at < size(arguments))
          at = at + 1
          if (index(arguments(at), '--') /= 1) then
-            self%files = [self%files, arguments(at)]
+            is_file(at) = .true.
             cycle
          end if
          equals = index(arguments(at), '=')
@@ -86,6 +87,8 @@ contains
             call take(self%list(i), arguments(at))
          end if
       end do
+      allocate (character(len(arguments)) :: self%files(count(is_file)))
+      self%files = pack(arguments, is_file)
    end subroutine parse
 
    subroutine take(option, value)

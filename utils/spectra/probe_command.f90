@@ -15,6 +15,7 @@ contains
       type(options_t) :: options
 
       options%command = 'dynsph-spectra probe'
+      call options%add('--window', 'NAME', 'hann', 'x')
       call options%parse(arguments, problem)
    end subroutine run_probe_command
 
