@@ -64,13 +64,15 @@ contains
       end do
    end function measure_sensor
 
-   !> sum_j p_j W V_j / sum_j W V_j at a point; 0 where no particle is near.
+   !> sum_j p_j W V_j / max(sum_j W V_j, 1/2) at a point: the Shepard mean inside the fluid, where sum_j W V_j is 1. At a
+   !! free surface it is 1/2; where it is less, the point is outside, and what is missing counts as dry. So the force of a
+   !! few particles that reach a dry sensor first is not spread over all of the kernel's width.
    pure real(dp) function pressure_near(model, p, near, x, y) result(pressure)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: x, y
-      real(dp), parameter :: dry = 1.0e-6_dp   ! sum_j W V_j is 1 inside the fluid
+      real(dp), parameter :: at_surface = 0.5_dp
       type(ranges_t) :: ranges
       real(dp) :: weight, total, squared, share
       integer :: k, j
@@ -87,8 +89,7 @@ contains
             total = total + share*p%base%s(j)
          end do
       end do
-      pressure = 0
-      if (weight > dry) pressure = model%c0**2*total/weight
+      pressure = model%c0**2*total/max(weight, at_surface)
    end function pressure_near
 
 end module probes
