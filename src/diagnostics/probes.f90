@@ -1,21 +1,21 @@
-!> Wall pressure sensors: the pressure averaged over a disc.
+!> Wall pressure sensors: the pressure averaged over a disc or a segment.
 !!
 !! A sensor of diameter D is a disc on the wall; in two dimensions that is an average over a segment, weighted by the
 !! disc's chord. Pressure at a point is interpolated with the kernel over particles and images (Shepard).
 module probes
    use images, only: bottom_wall, left_wall, right_wall, top_wall
-   use kernel, only: kernel_value
    use kinds, only: dp
    use model, only: model_t
-   use neighbours, only: neighbours_t, ranges_around
+   use neighbours, only: neighbours_t
    use particles, only: particles_t
-   use strips, only: ranges_t
+   use point_sums, only: at_surface, sum_at
+   use settings, only: probe_settings
    implicit none
    private
 
    public :: sensor_t, new_sensor, measure_sensor
 
-   !> A disc on a wall as quadrature points.
+   !> A disc or segment on a wall as quadrature points.
    type :: sensor_t
       real(dp), allocatable :: x(:), y(:)     !! (points)
       real(dp), allocatable :: weight(:)      !! (points), their sum is 1
@@ -25,28 +25,33 @@ module probes
 
 contains
 
-   !> Sensor around `centre`, along the wall nearest to it.
-   pure type(sensor_t) function new_sensor(model, centre, diameter) result(sensor)
+   !> Along the wall nearest to the probe's position.
+   pure type(sensor_t) function new_sensor(model, probe) result(sensor)
       type(model_t), intent(in) :: model
-      real(dp), intent(in) :: centre(2)
-      real(dp), intent(in) :: diameter   !! 0 for a point
-      real(dp) :: distance(4), along(2), angle
+      type(probe_settings), intent(in) :: probe   !! a point if it has no size
+      real(dp) :: distance(4), along(2), size_along, offset
       integer :: n, k
 
+      size_along = max(probe%diameter, probe%length)
       n = 1
       ! Two points a spacing resolve what particles can.
-      if (diameter > 0) n = min(255, 3 + 2*ceiling(diameter/model%dx))
-      distance = abs(centre([1, 1, 2, 2]) - model%walls%at)
+      if (size_along > 0) n = min(255, 3 + 2*ceiling(size_along/model%dx))
+      distance = abs(probe%position([1, 1, 2, 2]) - model%walls%at)
       where (.not. model%walls%present) distance = huge(1.0_dp)
-      along = [0.0_dp, diameter/2]
-      if (minval(distance(bottom_wall:top_wall)) < minval(distance(left_wall:right_wall))) along = [diameter/2, 0.0_dp]
+      along = [0.0_dp, size_along/2]
+      if (minval(distance(bottom_wall:top_wall)) < minval(distance(left_wall:right_wall))) along = [size_along/2, 0.0_dp]
       allocate (sensor%x(n), sensor%y(n), sensor%weight(n))
       do k = 1, n
-         ! Gauss-Chebyshev of the second kind: its weight function is the chord.
-         angle = k*pi/(n + 1)
-         sensor%x(k) = centre(1) + along(1)*cos(angle)
-         sensor%y(k) = centre(2) + along(2)*cos(angle)
-         sensor%weight(k) = 2*sin(angle)**2/(n + 1)
+         if (probe%length > 0) then
+            offset = (2*k - n - 1)/real(n, dp)   ! midpoints of n equal pieces
+            sensor%weight(k) = 1.0_dp/n
+         else
+            ! Gauss-Chebyshev of the second kind: its weight function is the chord.
+            offset = cos(k*pi/(n + 1))
+            sensor%weight(k) = 2*(1 - offset**2)/(n + 1)
+         end if
+         sensor%x(k) = probe%position(1) + along(1)*offset
+         sensor%y(k) = probe%position(2) + along(2)*offset
       end do
    end function new_sensor
 
@@ -64,32 +69,18 @@ contains
       end do
    end function measure_sensor
 
-   !> sum_j p_j W V_j / max(sum_j W V_j, 1/2) at a point: the Shepard mean inside the fluid, where sum_j W V_j is 1. At a
-   !! free surface it is 1/2; where it is less, the point is outside, and what is missing counts as dry. So the force of a
-   !! few particles that reach a dry sensor first is not spread over all of the kernel's width.
+   !> sum_j p_j W V_j / max(sum_j W V_j, 1/2) at a point: the Shepard mean inside the fluid. Where the sum is less than at a
+   !! free surface the point is outside, and what is missing counts as dry. So the pressure of a few particles that
+   !! reach a dry sensor first is not spread over all of the kernel's width.
    pure real(dp) function pressure_near(model, p, near, x, y) result(pressure)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: x, y
-      real(dp), parameter :: at_surface = 0.5_dp
-      type(ranges_t) :: ranges
-      real(dp) :: weight, total, squared, share
-      integer :: k, j
+      real(dp) :: volume
 
-      call ranges_around(near, x, y, model%kernel%support, ranges)
-      weight = 0
-      total = 0
-      do k = 1, ranges%n
-         do j = ranges%first(k), ranges%last(k)
-            squared = (p%base%x(j) - x)**2 + (p%base%y(j) - y)**2
-            if (squared >= model%kernel%support**2) cycle
-            share = kernel_value(model%kernel, sqrt(squared))*p%base%w(j)
-            weight = weight + share
-            total = total + share*p%base%s(j)
-         end do
-      end do
-      pressure = model%c0**2*total/max(weight, at_surface)
+      call sum_at(model, p, near, x, y, volume, pressure)
+      pressure = pressure/max(volume, at_surface)
    end function pressure_near
 
 end module probes

@@ -1,4 +1,4 @@
-!> Checks what is asked for as output: cadences, fields, probes.
+!> Checks what is asked for as output: cadences, fields, probes, gauges.
 module output_check
    use cadence, only: cadence_t
    use findings, only: findings_t
@@ -15,7 +15,7 @@ module output_check
 
 contains
 
-   !> Runs all checks of &output and &probe.
+   !> Runs all checks of &output, &probe and &gauge.
    subroutine check_output(document, setup, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
@@ -30,7 +30,11 @@ contains
       call check_fields(document, setup, notes)
       do i = 1, size(setup%probes)
          call check_probe_place(document, setup, i, notes)
-         call check_probe_name(document, setup, i, notes)
+         call check_name(document, 'probe', i, setup%probes(i)%name, setup%probes(:i - 1)%name, notes)
+      end do
+      do i = 1, size(setup%gauges)
+         call check_gauge_place(document, setup, i, notes)
+         call check_name(document, 'gauge', i, setup%gauges(i)%name, [setup%probes%name, setup%gauges(:i - 1)%name], notes)
       end do
    end subroutine check_output
 
@@ -66,57 +70,89 @@ contains
       end do
    end subroutine check_fields
 
-   !> A probe must lie at a wall.
+   !> A probe must lie at a wall, all of it within the box.
    subroutine check_probe_place(document, setup, number, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
       integer, intent(in) :: number
       type(findings_t), intent(inout) :: notes
 
-      real(dp) :: distance(4)
+      real(dp) :: distance(4), margin
       logical :: walls(4)
       character(:), allocatable :: problem
+      integer :: along
 
       if (.not. (notes%clean('probe') .and. notes%clean('scene') .and. notes%clean('domain'))) return
-      associate (at => setup%probes(number)%position, domain => setup%domain)
+      associate (probe => setup%probes(number), domain => setup%domain)
          walls = is_wall([domain%left, domain%bottom, domain%right, domain%top])
-         distance = [at - domain%lower, domain%upper - at]
+         distance = [probe%position - domain%lower, domain%upper - probe%position]
+         margin = slack*setup%scene%reference_length
          problem = ''
          if (.not. any(walls)) then
             problem = 'needs a wall, and all sides of &domain are open'
-         else if (any(distance < -slack*setup%scene%reference_length)) then
+         else if (any(distance < -margin)) then
             problem = 'lies outside the box'
          else if (minval(distance, walls) > setup%smoothing_length()) then
             problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall; put it on one'
+         else
+            along = 2
+            if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1
+            associate (room => 2*min(distance(along), distance(along + 2)))
+               if (max(probe%diameter, probe%length) > room + 2*margin) problem = 'is nearer to the end of its wall than its own ' &
+                  //'half; there a diameter or length of at most '//short(room)//' m fits'
+            end associate
          end if
          if (problem /= '') call notes%mistake(document%place_of('probe', number, 'position'), 'probe', &
-                                               '&probe position = '//to_text(at)//' '//problem)
+                                               '&probe position = '//to_text(probe%position)//' '//problem)
+         if (probe%diameter > 0 .and. probe%length > 0) &
+            call notes%mistake(document%place_of('probe', number, 'length'), 'probe', &
+                               '&probe has a diameter and a length; it is either a disc or a segment: give one of them')
       end associate
    end subroutine check_probe_place
 
-   !> A probe's name heads a column: it must be one word and its own.
-   subroutine check_probe_name(document, setup, number, notes)
+   !> A gauge must pass through the box.
+   subroutine check_gauge_place(document, setup, number, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
       integer, intent(in) :: number
       type(findings_t), intent(inout) :: notes
+      integer :: across
+
+      if (.not. (notes%clean('gauge') .and. notes%clean('scene') .and. notes%clean('domain'))) return
+      associate (gauge => setup%gauges(number), domain => setup%domain)
+         across = merge(2, 1, gauge%along == 'x')
+         if (gauge%at >= domain%lower(across) .and. gauge%at <= domain%upper(across)) return
+         call notes%mistake(document%place_of('gauge', number, 'at'), 'gauge', '&gauge at = '//to_text(gauge%at) &
+                            //' lies outside the box; a line along '//trim(gauge%along)//' is between ' &
+                            //to_text(domain%lower(across))//' and '//to_text(domain%upper(across)))
+      end associate
+   end subroutine check_gauge_place
+
+   !> The name of a probe or gauge heads a column: it must be one word and its own.
+   subroutine check_name(document, group, number, name, earlier, notes)
+      type(document_t), intent(in) :: document
+      character(*), intent(in) :: group
+      integer, intent(in) :: number
+      character(*), intent(in) :: name
+      character(*), intent(in) :: earlier(:)
+      type(findings_t), intent(inout) :: notes
 
       character(*), parameter :: allowed = &
                                  'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-'
+      character(:), allocatable :: problem
 
-      if (.not. notes%clean('probe')) return
-      associate (name => setup%probes(number)%name)
-         if (verify(trim(name), allowed) > 0) then
-            call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
-                               //' may have letters, digits, _ and - only')
-         else if (name == 'time' .or. name == 'time_scaled') then
-            call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
-                               //' is the name of another column of probes.dat; choose another')
-         else if (any(setup%probes(:number - 1)%name == name)) then
-            call notes%mistake(document%place_of('probe', number, 'name'), 'probe', '&probe name = '//quoted(name) &
-                               //' is the name of an earlier probe')
-         end if
-      end associate
-   end subroutine check_probe_name
+      if (.not. notes%clean(group)) return
+      problem = ''
+      if (verify(trim(name), allowed) > 0) then
+         problem = ' may have letters, digits, _ and - only'
+      else if (name == 'time' .or. name == 'time_scaled') then
+         problem = ' is the name of another column of probes.dat; choose another'
+      else if (any(earlier == name)) then
+         problem = ' is the name of an earlier probe'
+         if (group == 'gauge') problem = problem//' or gauge'
+      end if
+      if (problem /= '') call notes%mistake(document%place_of(group, number, 'name'), group, &
+                                            '&'//group//' name = '//quoted(name)//problem)
+   end subroutine check_name
 
 end module output_check

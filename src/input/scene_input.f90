@@ -32,7 +32,7 @@ contains
       call load_file(path, content, message)
       if (message /= '') then
          allocate (character(1) :: warnings(0))
-         allocate (setup%bodies(0), setup%probes(0))
+         allocate (setup%bodies(0), setup%probes(0), setup%gauges(0))
          call problem%raise(exit_files, path//': '//message)
          return
       end if
@@ -58,6 +58,7 @@ contains
       end do
       allocate (setup%bodies(reader%document%count_of('body')))
       allocate (setup%probes(reader%document%count_of('probe')))
+      allocate (setup%gauges(reader%document%count_of('gauge')))
       call visit_keys(reader, setup)
       call reader%finish()
       call resolve_settings(reader%document, setup, reader%notes)
@@ -150,13 +151,13 @@ contains
       call visit_defaults(writer)
    end subroutine write_markdown
 
-   !> Shows all keys with their defaults, one body and one probe.
+   !> Shows all keys with their defaults, one body, one probe and one gauge.
    subroutine visit_defaults(writer)
       type(key_writer_t), intent(inout) :: writer
 
       type(settings_t) :: defaults
 
-      allocate (defaults%bodies(1), defaults%probes(1))
+      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
       call visit_keys(writer, defaults)
    end subroutine visit_defaults
 

@@ -5,7 +5,8 @@ module scene_keys
    use key_visitor, only: above, any_number, at_least, between, key_visitor_t
    use kinds, only: dp
    use settings, only: body_settings, choice_length, domain_settings, exact_settings, fluid_settings, force_settings, &
-                       model_settings, name_length, output_settings, probe_settings, scene_settings, settings_t, time_settings
+                       gauge_settings, model_settings, name_length, output_settings, probe_settings, scene_settings, &
+                       settings_t, time_settings
    implicit none
    private
 
@@ -38,7 +39,7 @@ contains
    !> Shows all groups and keys to a visitor, which may change their values.
    subroutine visit_keys(keys, setup)
       class(key_visitor_t), intent(inout) :: keys
-      type(settings_t), intent(inout) :: setup   !! bodies and probes are allocated: one visit each
+      type(settings_t), intent(inout) :: setup   !! bodies, probes and gauges are allocated: one visit each
 
       integer :: i
 
@@ -61,10 +62,15 @@ contains
       call keys%announce('time', 'The time step and the end of the run.', .true., .false.)
       call visit_time(keys, setup%time)
       call keys%announce('output', "What is written and how often: '10 steps', '0.05 time' or 'never'.", .false., .false.)
-      call visit_output(keys, setup%output, with_probes=size(setup%probes) > 0, with_exact=setup%exact%solution /= 'none')
+      call visit_output(keys, setup%output, with_probes=size(setup%probes) + size(setup%gauges) > 0, &
+                        with_exact=setup%exact%solution /= 'none')
       call keys%announce('probe', 'A pressure sensor on a wall.', .false., .true.)
       do i = 1, size(setup%probes)
          call visit_probe(keys, setup%probes(i), i)
+      end do
+      call keys%announce('gauge', 'A line through the box, on which the end of the fluid is looked for.', .false., .true.)
+      do i = 1, size(setup%gauges)
+         call visit_gauge(keys, setup%gauges(i), i)
       end do
    end subroutine visit_keys
 
@@ -235,7 +241,7 @@ contains
 
       call keys%enter('output', 1)
       call keys%text_key('energy', output%energy, 'How often a line of the energy table is written.')
-      call keys%only_with('a &probe group', with_probes)
+      call keys%only_with('a &probe or &gauge group', with_probes)
       call keys%text_key('probes', output%probes, 'How often a line of the probe table is written.')
       call keys%only_with('an &exact solution', with_exact)
       call keys%text_key('errors', output%errors, 'How often a line of the error table is written.')
@@ -256,8 +262,27 @@ contains
       call keys%enter('probe', number)
       call keys%text_key('name', probe%name, 'Name of its column: letters, digits, _ and -.', required=.true.)
       call keys%vector_key('position', probe%position, any_number(), 'm', 'Its centre on a wall, x and y.', required=.true.)
-      call keys%real_key('diameter', probe%diameter, at_least(0.0_dp), 'm', 'Diameter of its disc. 0: a point.')
+      call keys%real_key('diameter', probe%diameter, at_least(0.0_dp), 'm', 'Diameter of its disc. 0: not a disc.')
+      call keys%real_key('length', probe%length, at_least(0.0_dp), 'm', &
+                         'Length of its segment along the wall. 0: not a segment; without a diameter too, a point.')
       call keys%leave()
    end subroutine visit_probe
+
+   !> Keys of one &gauge.
+   subroutine visit_gauge(keys, gauge, number)
+      class(key_visitor_t), intent(inout) :: keys
+      type(gauge_settings), intent(inout) :: gauge
+      integer, intent(in) :: number
+
+      call keys%enter('gauge', number)
+      call keys%text_key('name', gauge%name, 'Name of its column: letters, digits, _ and -.', required=.true.)
+      call keys%choice_key('along', gauge%along, [character(choice_length) :: 'x', 'y'], &
+                           'The axis the line is parallel to: y for the height of a surface, x for the front of a surge.')
+      call keys%real_key('at', gauge%at, any_number(), 'm', 'Where the line is: its x if it is along y, else its y.', &
+                         required=.true.)
+      call keys%choice_key('measure', gauge%measure, [character(choice_length) :: 'end', 'start', 'wetted'], &
+                           'The largest coordinate of the fluid on the line, the least, or how much of the line is wet.')
+      call keys%leave()
+   end subroutine visit_gauge
 
 end module scene_keys

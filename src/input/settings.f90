@@ -8,7 +8,7 @@ module settings
    private
 
    public :: settings_t, scene_settings, domain_settings, fluid_settings, force_settings, body_settings
-   public :: exact_settings, model_settings, time_settings, output_settings, probe_settings
+   public :: exact_settings, model_settings, time_settings, output_settings, probe_settings, gauge_settings
    public :: is_wall
 
    integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
@@ -115,8 +115,17 @@ module settings
    type :: probe_settings
       character(name_length) :: name = ''
       real(dp) :: position(2) = [0.0_dp, 0.0_dp]   !! centre, on a wall [m]
-      real(dp) :: diameter = 0.0_dp                !! of its disc; 0: a point [m]
+      real(dp) :: diameter = 0.0_dp                !! of its disc; 0: not a disc [m]
+      real(dp) :: length = 0.0_dp                  !! of its segment; 0: not a segment [m]
    end type probe_settings
+
+   !> &gauge: a line on which the end of the fluid is looked for.
+   type :: gauge_settings
+      character(name_length) :: name = ''
+      character(choice_length) :: along = 'y'      !! the axis it is parallel to
+      real(dp) :: at = 0.0_dp                      !! its other coordinate [m]
+      character(choice_length) :: measure = 'end'
+   end type gauge_settings
 
    !> Everything a run needs to know.
    type :: settings_t
@@ -130,6 +139,7 @@ module settings
       type(output_settings) :: output
       type(body_settings), allocatable :: bodies(:)
       type(probe_settings), allocatable :: probes(:)
+      type(gauge_settings), allocatable :: gauges(:)
    contains
       procedure :: spacing => particle_spacing
       procedure :: smoothing_length

@@ -7,6 +7,7 @@ module recorder
    use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
+   use gauges, only: gauge_t, measure_gauge, new_gauge
    use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
    use kinds, only: dp
    use model, only: model_t
@@ -34,6 +35,7 @@ module recorder
       type(table_t) :: energy_table, probe_table
       type(error_table_t) :: errors
       type(sensor_t), allocatable :: sensors(:)
+      type(gauge_t), allocatable :: gauges(:)
       type(snapshot_head) :: head
       type(time_scale_t) :: scale
       type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks for them
@@ -74,8 +76,8 @@ contains
       else
          call start_energies(self, scene, directory, problem)
       end if
-      if (size(scene%probes) > 0 .and. .not. self%when_probes%is_never()) &
-         call start_probes(self, scene, model, directory, problem)
+      if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
+         call start_probes(self, scene, model, p, directory, problem)
       call self%errors%start(scene, model, p, directory%file(errors_name), self%scale, problem)
    end subroutine start
 
@@ -95,29 +97,43 @@ contains
       call self%energy_table%create(directory%file(energy_name), lines, row%names, row%units, problem)
    end subroutine start_energies
 
-   subroutine start_probes(self, scene, model, directory, problem)
+   subroutine start_probes(self, scene, model, p, directory, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
-      character(200) :: lines(size(scene%probes) + 2)
-      integer :: k
+      character(200) :: head(6 + size(scene%probes) + size(scene%gauges))
+      integer :: k, n
 
-      allocate (self%sensors(size(scene%probes)))
-      lines(1) = 'title: '//scene%scene%title
-      lines(2) = 'wall pressure, averaged over a disc; sampled every '//trim(scene%output%probes)
-      do k = 1, size(scene%probes)
+      n = size(scene%probes)
+      allocate (self%sensors(n), self%gauges(size(scene%gauges)))
+      head(1) = 'title: '//scene%scene%title
+      head(2) = 'sampled every: '//scene%output%probes
+      ! For the acoustic modes of the box in spectra.
+      write (head(3), '(a, es23.16)') 'sound_speed: ', model%c0
+      write (head(4), '(a, es23.16)') 'domain_width: ', scene%domain%upper(1) - scene%domain%lower(1)
+      write (head(5), '(a, es23.16)') 'fluid_height: ', maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
+      head(6) = 'A pressure is the mean over a disc or segment on a wall; what is dry counts as 0.'
+      do k = 1, n
          associate (probe => scene%probes(k))
-            self%sensors(k) = new_sensor(model, probe%position, probe%diameter)
-            write (lines(k + 2), '(3a, 2(es14.7, 1x), a, es14.7)') &
-               'probe ', trim(probe%name), ' at ', probe%position, 'diameter', probe%diameter
+            self%sensors(k) = new_sensor(model, probe)
+            write (head(k + 6), '(3a, 2(es14.7, 1x), 2(a, es14.7))') 'probe ', trim(probe%name), ' at ', probe%position, &
+               'diameter', probe%diameter, ' length', probe%length
          end associate
       end do
-      call self%probe_table%create(directory%file(probes_name), lines, &
-                                   [character(32) :: 'time', 'time_scaled', scene%probes%name], &
-                                   [character(32) :: 'time', self%scale%name, spread('pressure', 1, size(scene%probes))], &
-                                   problem)
+      do k = 1, size(scene%gauges)
+         associate (gauge => scene%gauges(k))
+            self%gauges(k) = new_gauge(gauge, scene%domain%lower, scene%domain%upper)
+            write (head(k + n + 6), '(5a, es14.7, 2a)') 'gauge ', trim(gauge%name), ' along ', trim(gauge%along), ' at', gauge%at, &
+               ' measures ', gauge%measure
+         end associate
+      end do
+      call self%probe_table%create(directory%file(probes_name), head, &
+                                   [character(32) :: 'time', 'time_scaled', scene%probes%name, scene%gauges%name], &
+                                   [character(32) :: 'time', self%scale%name, spread('pressure', 1, n), &
+                                    spread('length', 1, size(scene%gauges))], problem)
    end subroutine start_probes
 
    !> Measures and writes what is due at the base state, or everything at the end of the run. The budget is taken
@@ -179,13 +195,16 @@ contains
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: time
-      real(dp) :: row(size(self%sensors) + 2)
+      real(dp) :: row(2 + size(self%sensors) + size(self%gauges))
       integer :: k
 
       row(1) = time
       row(2) = time/self%scale%unit
       do k = 1, size(self%sensors)
          row(k + 2) = measure_sensor(model, p, near, self%sensors(k))
+      end do
+      do k = 1, size(self%gauges)
+         row(k + 2 + size(self%sensors)) = measure_gauge(model, p, near, self%gauges(k))
       end do
    end function probe_row
 

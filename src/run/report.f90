@@ -111,7 +111,7 @@ contains
 
       associate (output => scene%output)
          words = 'energy '//trim(output%energy)
-         if (size(scene%probes) > 0) words = words//', probes '//trim(output%probes)
+         if (size(scene%probes) + size(scene%gauges) > 0) words = words//', probes '//trim(output%probes)
          if (scene%exact%solution /= 'none') words = words//', errors '//trim(output%errors)
          words = words//', snapshots '//trim(output%snapshots)
       end associate
@@ -167,6 +167,7 @@ contains
       if (model%delta > 0 .or. model%dynamic) words = words//', density diffusion'
       if (scene%exact%solution /= 'none') words = words//', exact solution'
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
+      if (size(scene%gauges) > 0) words = words//', '//to_text(size(scene%gauges))//' gauges'
    end function used
 
    function unused(scene, model) result(words)
