@@ -4,7 +4,7 @@ module output_check
    use findings, only: findings_t
    use kinds, only: dp
    use namelist_document, only: document_t
-   use settings, only: is_wall, settings_t
+   use settings, only: is_wall, name_length, settings_t
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -21,6 +21,7 @@ contains
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
+      character(name_length) :: names(size(setup%probes) + size(setup%gauges))   ! of the columns
       integer :: i
 
       call check_cadence(document, 'energy', setup%output%energy, notes)
@@ -29,12 +30,14 @@ contains
       call check_cadence(document, 'snapshots', setup%output%snapshots, notes)
       call check_fields(document, setup, notes)
       do i = 1, size(setup%probes)
+         names(i) = setup%probes(i)%name
          call check_probe_place(document, setup, i, notes)
-         call check_name(document, 'probe', i, setup%probes(i)%name, setup%probes(:i - 1)%name, notes)
+         call check_name(document, 'probe', i, names(:i), notes)
       end do
       do i = 1, size(setup%gauges)
+         names(size(setup%probes) + i) = setup%gauges(i)%name
          call check_gauge_place(document, setup, i, notes)
-         call check_name(document, 'gauge', i, setup%gauges(i)%name, [setup%probes%name, setup%gauges(:i - 1)%name], notes)
+         call check_name(document, 'gauge', i, names(:size(setup%probes) + i), notes)
       end do
    end subroutine check_output
 
@@ -129,12 +132,11 @@ contains
    end subroutine check_gauge_place
 
    !> The name of a probe or gauge heads a column: it must be one word and its own.
-   subroutine check_name(document, group, number, name, earlier, notes)
+   subroutine check_name(document, group, number, names, notes)
       type(document_t), intent(in) :: document
       character(*), intent(in) :: group
       integer, intent(in) :: number
-      character(*), intent(in) :: name
-      character(*), intent(in) :: earlier(:)
+      character(*), intent(in) :: names(:)   !! of the columns so far, the last one its own
       type(findings_t), intent(inout) :: notes
 
       character(*), parameter :: allowed = &
@@ -143,16 +145,18 @@ contains
 
       if (.not. notes%clean(group)) return
       problem = ''
-      if (verify(trim(name), allowed) > 0) then
-         problem = ' may have letters, digits, _ and - only'
-      else if (name == 'time' .or. name == 'time_scaled') then
-         problem = ' is the name of another column of probes.dat; choose another'
-      else if (any(earlier == name)) then
-         problem = ' is the name of an earlier probe'
-         if (group == 'gauge') problem = problem//' or gauge'
-      end if
-      if (problem /= '') call notes%mistake(document%place_of(group, number, 'name'), group, &
-                                            '&'//group//' name = '//quoted(name)//problem)
+      associate (name => names(size(names)))
+         if (verify(trim(name), allowed) > 0) then
+            problem = ' may have letters, digits, _ and - only'
+         else if (name == 'time' .or. name == 'time_scaled') then
+            problem = ' is the name of another column of probes.dat; choose another'
+         else if (findloc(names, name, dim=1) < size(names)) then
+            problem = ' is the name of an earlier probe'
+            if (group == 'gauge') problem = problem//' or gauge'
+         end if
+         if (problem /= '') call notes%mistake(document%place_of(group, number, 'name'), group, &
+                                               '&'//group//' name = '//quoted(name)//problem)
+      end associate
    end subroutine check_name
 
 end module output_check
