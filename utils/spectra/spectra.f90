@@ -8,23 +8,24 @@ program spectra
    implicit none
 
    type(failure) :: problem
-   character(:), allocatable :: arguments(:), command
+   character(:), allocatable :: arguments(:)   ! behind the command
+   character(16) :: command
 
    call take_arguments(arguments)
    command = '--help'
-   if (size(arguments) > 0) command = trim(arguments(1))
+   if (command_argument_count() > 0) call get_command_argument(1, command)
    select case (command)
    case ('vorticity')
-      call run_vorticity_command(arguments(2:), problem)
+      call run_vorticity_command(arguments, problem)
    case ('probe')
-      call run_probe_command(arguments(2:), problem)
+      call run_probe_command(arguments, problem)
    case ('--help')
       write (output_unit, '(a)') &
          'usage: dynsph-spectra vorticity SNAPSHOT.vtkhdf...   enstrophy and kinetic energy over wavenumber', &
          '       dynsph-spectra probe probes.dat...            power of a probe''s signal over frequency', &
          '', 'dynsph-spectra vorticity --help and dynsph-spectra probe --help list their options.'
    case default
-      call problem%raise(exit_input, 'dynsph-spectra: there is no '//quoted(command)//'; commands are vorticity and probe')
+      call problem%raise(exit_input, 'dynsph-spectra: there is no '//quoted(trim(command))//'; commands are vorticity and probe')
    end select
    call end_program(problem)
 
@@ -35,13 +36,13 @@ contains
       integer :: i, length, longest
 
       longest = 1
-      do i = 1, command_argument_count()
+      do i = 2, command_argument_count()
          call get_command_argument(i, length=length)
          longest = max(longest, length)
       end do
-      allocate (character(longest) :: arguments(command_argument_count()))
-      do i = 1, command_argument_count()
-         call get_command_argument(i, arguments(i))
+      allocate (character(longest) :: arguments(max(0, command_argument_count() - 1)))
+      do i = 1, size(arguments)
+         call get_command_argument(i + 1, arguments(i))
       end do
    end subroutine take_arguments
 

@@ -1,0 +1,178 @@
+!> Reading what snapshots hold: arrays as columns of reals, attributes of the root group.
+module hdf5_reader
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_ptr, c_size_t
+   use errors, only: exit_files, failure
+   use hdf5, only: h5aclose_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f, h5eset_auto_f, &
+      h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, h5gn_members_f, h5open_f, h5sclose_f, &
+      h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5t_cset_utf8_f, h5t_native_double, h5t_string, h5tclose_f, &
+      h5tcopy_f, h5tset_cset_f, hid_t, hsize_t
+   use kinds, only: dp
+   implicit none
+   private
+
+   public :: hdf5_reader_t, name_length
+
+   integer, parameter :: name_length = 64   !! of an array
+   character(*), parameter :: fields = '/VTKHDF/PointData'
+
+   !> A snapshot that is open for reading.
+   type :: hdf5_reader_t
+      private
+      character(:), allocatable :: path
+      integer(hid_t) :: file = -1
+   contains
+      procedure :: open => open_snapshot
+      procedure :: close => close_snapshot
+      procedure :: field_names
+      procedure :: read_points
+      procedure :: read_field
+      procedure :: number
+      procedure :: words
+   end type hdf5_reader_t
+
+   interface
+      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+      end function c_strlen
+   end interface
+
+contains
+
+   !> Raises exit_files if it is no HDF5 file or not a snapshot of dynsph.
+   subroutine open_snapshot(self, path, problem)
+      class(hdf5_reader_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem
+      integer :: members, status
+
+      self%path = trim(path)
+      call h5open_f(status)
+      call h5eset_auto_f(0, status)
+      call h5fopen_f(self%path, h5f_acc_rdonly_f, self%file, status)
+      if (status < 0) then
+         self%file = -1
+         call problem%raise(exit_files, "cannot read '"//self%path//"' as an HDF5 file")
+         return
+      end if
+      call h5gn_members_f(self%file, fields, members, status)
+      if (status < 0) call problem%raise(exit_files, "'"//self%path//"' is not a snapshot of dynsph")
+   end subroutine open_snapshot
+
+   subroutine close_snapshot(self)
+      class(hdf5_reader_t), intent(inout) :: self
+      integer :: ignored
+
+      if (self%file >= 0) call h5fclose_f(self%file, ignored)
+      self%file = -1
+   end subroutine close_snapshot
+
+   !> Names of all particle arrays, in the order in which the file lists them.
+   subroutine field_names(self, names)
+      class(hdf5_reader_t), intent(in) :: self
+      character(name_length), allocatable, intent(out) :: names(:)
+      integer :: i, kind, members, status
+
+      call h5gn_members_f(self%file, fields, members, status)
+      if (status < 0) members = 0
+      allocate (names(members))
+      do i = 1, members
+         call h5gget_obj_info_idx_f(self%file, fields, i - 1, names(i), kind, status)
+      end do
+   end subroutine field_names
+
+   !> Positions, (3, n).
+   subroutine read_points(self, values, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:, :)
+      type(failure), intent(inout) :: problem
+
+      call read_array(self, '/VTKHDF/Points', values, problem)
+   end subroutine read_points
+
+   !> A particle array, (components, n). Raises exit_files if it is not there.
+   subroutine read_field(self, name, values, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      real(dp), allocatable, intent(out) :: values(:, :)
+      type(failure), intent(inout) :: problem
+
+      call read_array(self, fields//'/'//trim(name), values, problem)
+   end subroutine read_field
+
+   subroutine read_array(self, name, values, problem)
+      type(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      real(dp), allocatable, target, intent(out) :: values(:, :)   !! (components, n)
+      type(failure), intent(inout) :: problem
+      type(c_ptr) :: start
+      integer(hid_t) :: dataset, space
+      integer(hsize_t) :: extent(2), largest(2)
+      integer :: rank, status
+
+      extent = 0
+      call h5dopen_f(self%file, name, dataset, status)
+      if (status >= 0) then
+         call h5dget_space_f(dataset, space, status)
+         call h5sget_simple_extent_ndims_f(space, rank, status)
+         if (rank <= 2) call h5sget_simple_extent_dims_f(space, extent(:rank), largest(:rank), status)
+         if (rank == 1) extent = [1_hsize_t, extent(1)]
+         allocate (values(extent(1), extent(2)))
+         status = 0
+         start = c_loc(values)
+         if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, start, status)
+         if (rank > 2) status = -1
+         call h5sclose_f(space, rank)
+         call h5dclose_f(dataset, rank)
+      end if
+      if (status < 0) call problem%raise(exit_files, "cannot read '"//name//"' of '"//self%path//"'")
+   end subroutine read_array
+
+   !> A real attribute of the root group; 0 when it is missing.
+   real(dp) function number(self, name)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      real(dp), target :: value
+      type(c_ptr) :: start
+      integer(hid_t) :: attribute
+      integer :: status
+
+      value = 0.0_dp
+      start = c_loc(value)
+      call h5aopen_f(self%file, name, attribute, status)
+      if (status >= 0) then
+         call h5aread_f(attribute, h5t_native_double, start, status)
+         call h5aclose_f(attribute, status)
+      end if
+      number = value
+   end function number
+
+   !> A text attribute of the root group; '' when it is missing.
+   function words(self, name) result(text)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+      character(kind=c_char), pointer :: bytes(:)
+      type(c_ptr), target :: address(1)
+      type(c_ptr) :: start
+      integer(hid_t) :: attribute, string
+      integer :: i, status
+
+      text = ''
+      call h5aopen_f(self%file, name, attribute, status)
+      if (status < 0) return
+      call h5tcopy_f(h5t_string, string, status)
+      call h5tset_cset_f(string, h5t_cset_utf8_f, status)
+      start = c_loc(address)
+      call h5aread_f(attribute, string, start, status)
+      if (status >= 0 .and. c_associated(address(1))) then
+         call c_f_pointer(address(1), bytes, [c_strlen(address(1))])
+         do i = 1, size(bytes)
+            text = text//bytes(i)
+         end do
+      end if
+      call h5tclose_f(string, status)
+      call h5aclose_f(attribute, status)
+   end function words
+
+end module hdf5_reader
