@@ -23,7 +23,7 @@ module vorticity_command
 
    !> What the user asks for.
    type :: request_t
-      real(dp) :: smoothing = scheme_h        !! h/dx of the interpolation
+      real(dp) :: smoothing = 1.25_dp         !! h/dx of the interpolation
       real(dp) :: least_filling = 0.8_dp
       real(dp) :: rectangle(4) = 0            !! x0, y0, x1, y1
       logical :: has_rectangle = .false.
@@ -68,8 +68,7 @@ contains
       call options%add('--rectangle', 'X0,Y0,X1,Y1', '', &
                        'where, in the units of the run; else the largest rectangle in the fluid')
       call options%add('--window', 'NAME', 'hann', 'hann, hamming, blackman or none')
-      call options%add('--smoothing', 'H/DX', '2', &
-                       'smoothing length of derivative and interpolation, over dx; 2 is the scheme''s')
+      call options%add('--smoothing', 'H/DX', '1.25', 'smoothing length of the interpolation, over dx')
       call options%add('--filling', 'SHARE', '0.8', 'least sum of W V that counts as inside the fluid')
       call options%add('--field', '', '', 'write the vorticity of all the fluid on the grid too, for pictures')
       call options%add('--overwrite', '', '', 'replace spectra that are there')
@@ -151,9 +150,9 @@ contains
       if (problem%raised()) return
       h = request%smoothing*snapshot%spacing
       grid = covering_grid(snapshot)
-      call choose_rectangle(snapshot, request, h, grid, path, corners, problem)
+      call choose_rectangle(snapshot, request, grid, path, corners, problem)
       if (problem%raised()) return
-      call particle_vorticity(snapshot, h, vorticity)
+      call particle_vorticity(snapshot, scheme_h*snapshot%spacing, vorticity)
       if (request%with_field) call write_field(path, snapshot, h, grid, vorticity, problem)
       grid%lower = grid%lower + grid%spacing*(corners(1:2) - 1)
       grid%n = corners(3:4) - corners(1:2) + 1
@@ -183,10 +182,9 @@ contains
 
    !> The grid points asked for, or the largest rectangle of points inside the fluid.
    !! Raises exit_files if it is too small or reaches out of the fluid.
-   subroutine choose_rectangle(snapshot, request, h, grid, path, corners, problem)
+   subroutine choose_rectangle(snapshot, request, grid, path, corners, problem)
       type(particle_snapshot_t), intent(in) :: snapshot
       type(request_t), intent(in) :: request
-      real(dp), intent(in) :: h
       type(grid_t), intent(inout) :: grid
       character(*), intent(in) :: path
       integer, intent(out) :: corners(4)   !! [i1, j1, i2, j2]
@@ -203,7 +201,7 @@ contains
                             ' points at spacing dx is too large; choose a part of the fluid by --rectangle')
          return
       end if
-      call filling(snapshot, h, grid, share)
+      call filling(snapshot, scheme_h*grid%spacing, grid, share)
       if (request%has_rectangle) then
          corners = [1, 1, grid%n]
          if (any(share < request%least_filling)) call problem%raise(exit_files, path//': '//short(100*count(share < &
@@ -305,7 +303,7 @@ contains
       character(240) :: line
       integer :: j
 
-      call filling(snapshot, h, grid, share)
+      call filling(snapshot, scheme_h*grid%spacing, grid, share)
       call grid_values(snapshot, h, grid, reshape(vorticity, [size(vorticity), 1]), values)
       where (share < 0.5_dp) values(:, :, 1) = ieee_value(1.0_dp, ieee_quiet_nan)
       allocate (character(grid%n(2)*len(row)) :: content)
