@@ -11,13 +11,9 @@ program spectra
    character(:), allocatable :: arguments(:)   ! behind the command
    character(16) :: command
 
-<<<<<<< HEAD
    call take_arguments(arguments)
    command = '--help'
    if (command_argument_count() > 0) call get_command_argument(1, command)
-=======
-   call take_arguments(command, arguments)
->>>>>>> spectra-probe
    select case (command)
    case ('vorticity')
       call run_vorticity_command(arguments, problem)
@@ -35,13 +31,10 @@ program spectra
 
 contains
 
-   !> The first argument and the others: gfortran 12 hands arguments(2:) on from the first.
-   subroutine take_arguments(command, arguments)
-      character(:), allocatable, intent(out) :: command        !! '--help' without any
+   subroutine take_arguments(arguments)
       character(:), allocatable, intent(out) :: arguments(:)   !! all of the longest's length
-      integer :: i, length, longest, others
+      integer :: i, length, longest
 
-<<<<<<< HEAD
       longest = 1
       do i = 2, command_argument_count()
          call get_command_argument(i, length=length)
@@ -50,22 +43,7 @@ contains
       allocate (character(longest) :: arguments(max(0, command_argument_count() - 1)))
       do i = 1, size(arguments)
          call get_command_argument(i + 1, arguments(i))
-=======
-      others = max(0, command_argument_count() - 1)
-      longest = len('--help')
-      do i = 1, command_argument_count()
-         call get_command_argument(i, length=length)
-         longest = max(longest, length)
       end do
-      allocate (character(longest) :: arguments(others))
-      do i = 1, others
-         call get_command_argument(1 + i, arguments(i))
->>>>>>> spectra-probe
-      end do
-      command = repeat(' ', longest)
-      call get_command_argument(1, command)
-      command = trim(command)
-      if (command == '') command = '--help'
    end subroutine take_arguments
 
 end program spectra
