@@ -19,7 +19,7 @@ module vorticity_command
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: scheme_h = 2.0_dp   !! h/dx of the scheme
-   integer, parameter :: fewest = 16          !! points across a rectangle, so that there are eight rings
+   integer, parameter :: fewest = 8           !! points across a rectangle, so that there are four rings
 
    !> What the user asks for.
    type :: request_t
