@@ -53,10 +53,8 @@ contains
                                                        ' --help shows an example')
       call take_request(options, request, problem)
       if (problem%raised()) return
-      write (output_unit, '(a)') &
-         '        time    enstrophy  above pi/2h   above pi/h       energy  above pi/2h   above pi/h   x0, y0, x1, y1   file'
       do i = 1, size(options%files)
-         call transform_snapshot(trim(options%files(i)), request, problem)
+         call transform_snapshot(trim(options%files(i)), request, i == 1, problem)
          if (problem%raised()) return
       end do
    end subroutine run_vorticity_command
@@ -131,9 +129,10 @@ contains
    end subroutine take_rectangle
 
    !> One snapshot: reads, interpolates, transforms, writes.
-   subroutine transform_snapshot(path, request, problem)
+   subroutine transform_snapshot(path, request, first, problem)
       character(*), intent(in) :: path
       type(request_t), intent(in) :: request
+      logical, intent(in) :: first   !! what is printed begins with a head
       type(failure), intent(inout) :: problem
       type(particle_snapshot_t) :: snapshot
       type(grid_t) :: grid
@@ -164,6 +163,8 @@ contains
       call add_spectrum(energy, values(:, :, 3), request%window, 0.5_dp)
       call write_spectrum(path, snapshot, request, h, grid, enstrophy, energy, problem)
       if (problem%raised()) return
+      if (first) write (output_unit, '(a)') &
+         '        time    enstrophy  above pi/2h   above pi/h       energy  above pi/2h   above pi/h   x0, y0, x1, y1   file'
       associate (last => grid%lower + grid%spacing*(grid%n - 1))
          write (output_unit, '(f12.5, 2(es13.3, 2f13.6), 3x, 9a)') snapshot%time, enstrophy%total, &
             shares(enstrophy, snapshot%spacing), energy%total, shares(energy, snapshot%spacing), &
