@@ -103,8 +103,10 @@ contains
       class(options_t), intent(in) :: self
       character(*), intent(in) :: name
       character(:), allocatable :: hint
+      character(name_length) :: names(size(self%list))
 
-      hint = trim(nearest_word(name, self%list%name))
+      names = self%list%name   ! one after the other, as the next line needs them
+      hint = trim(nearest_word(name, names))
       if (hint /= '') hint = 'did you mean '//hint//'? '
    end function did_you_mean
 
@@ -124,7 +126,8 @@ contains
             write (unit, '(2x, a26, 2a)') option, trim(o%meaning), trim(default)
          end associate
       end do
-      write (unit, '(2x, a26, a)') '--help', 'this text'
+      option = '--help'
+      write (unit, '(2x, a26, a)') option, 'this text'
    end subroutine write_help
 
    pure integer function place(self, name)

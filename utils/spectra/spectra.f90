@@ -10,14 +10,12 @@ program spectra
    type(failure) :: problem
    character(:), allocatable :: arguments(:), command
 
-   call take_arguments(arguments)
-   command = '--help'
-   if (size(arguments) > 0) command = trim(arguments(1))
+   call take_arguments(command, arguments)
    select case (command)
    case ('vorticity')
-      call run_vorticity_command(arguments(2:), problem)
+      call run_vorticity_command(arguments, problem)
    case ('probe')
-      call run_probe_command(arguments(2:), problem)
+      call run_probe_command(arguments, problem)
    case ('--help')
       write (output_unit, '(a)') &
          'usage: dynsph-spectra vorticity SNAPSHOT.vtkhdf...   enstrophy and kinetic energy over wavenumber', &
@@ -30,19 +28,26 @@ program spectra
 
 contains
 
-   subroutine take_arguments(arguments)
+   !> The first argument and the others: gfortran 12 hands arguments(2:) on from the first.
+   subroutine take_arguments(command, arguments)
+      character(:), allocatable, intent(out) :: command        !! '--help' without any
       character(:), allocatable, intent(out) :: arguments(:)   !! all of the longest's length
-      integer :: i, length, longest
+      integer :: i, length, longest, others
 
-      longest = 1
+      others = max(0, command_argument_count() - 1)
+      longest = len('--help')
       do i = 1, command_argument_count()
          call get_command_argument(i, length=length)
          longest = max(longest, length)
       end do
-      allocate (character(longest) :: arguments(command_argument_count()))
-      do i = 1, command_argument_count()
-         call get_command_argument(i, arguments(i))
+      allocate (character(longest) :: arguments(others))
+      do i = 1, others
+         call get_command_argument(1 + i, arguments(i))
       end do
+      command = repeat(' ', longest)
+      call get_command_argument(1, command)
+      command = trim(command)
+      if (command == '') command = '--help'
    end subroutine take_arguments
 
 end program spectra
