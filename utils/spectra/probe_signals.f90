@@ -49,20 +49,41 @@ contains
          else
             places = pack([(i, i=1, size(table%names))], table%names /= 'time' .and. table%names /= 'time_scaled')
          end if
+         if (size(places) == 0) call problem%raise(exit_files, table%path//': no column but times: there is no probe')
          signals%names = table%names(places)
          signals%units = table%units(places)
-         rows = pack([(i, i=1, size(table%values, 2))], table%values(time, :) >= from .and. table%values(time, :) <= until)
          call check_times(table, time, problem)
+         if (problem%raised()) return
+         rows = pack([(i, i=1, size(table%values, 2))], table%values(time, :) >= from .and. table%values(time, :) <= until)
          call check_number_of_rows(table, time, size(rows), problem)
          if (.not. problem%raised()) call check_values(table, places, rows, problem)
+         if (.not. problem%raised()) call take_scale(table, time, time_scaled, rows, signals%scale, problem)
          if (problem%raised()) return
          signals%time = table%values(time, rows)
          signals%values = transpose(table%values(places, rows))
-         ! Both begin at 0, so the last row has the ratio best.
-         signals%scale = signals%time(size(rows))/table%values(time_scaled, rows(size(rows)))
          deallocate (table%values)
       end associate
    end subroutine load_signals
+
+   subroutine take_scale(table, time, time_scaled, rows, scale, problem)
+      type(text_table_t), intent(in) :: table
+      integer, intent(in) :: time, time_scaled, rows(:)
+      real(dp), intent(out) :: scale
+      type(failure), intent(inout) :: problem
+      real(dp) :: span
+
+      scale = 1
+      associate (first => rows(1), last => rows(size(rows)))
+         span = 0
+         if (all(ieee_is_finite(table%values(time_scaled, [first, last])))) &
+            span = table%values(time_scaled, last) - table%values(time_scaled, first)
+         if (span > 0) then
+            scale = (table%values(time, last) - table%values(time, first))/span
+         else
+            call problem%raise(exit_files, place(table, last)//': time_scaled does not rise with time')
+         end if
+      end associate
+   end subroutine take_scale
 
    subroutine check_times(table, time, problem)
       type(text_table_t), intent(in) :: table
@@ -103,7 +124,6 @@ contains
       type(failure), intent(inout) :: problem
       integer :: i, k
 
-      if (size(places) == 0) call problem%raise(exit_files, table%path//': no column but times: there is no probe')
       do k = 1, size(places)
          do i = 1, size(rows)
             if (ieee_is_finite(table%values(places(k), rows(i)))) cycle

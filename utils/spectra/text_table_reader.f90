@@ -79,11 +79,12 @@ contains
       character(256) :: message
       integer :: length, status, unit
 
+      content = ''
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status, &
          iomsg=message)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         allocate (character(max(0, length)) :: content)
+         content = repeat(' ', max(0, length))
          read (unit, iostat=status, iomsg=message) content
          close (unit)
       end if

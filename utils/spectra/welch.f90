@@ -57,8 +57,11 @@ contains
 
       length = size(window)
       spectrum%spacing = rate/length
-      spectrum%frequency = [(k*spectrum%spacing, k=0, length/2)]
-      spectrum%density = 0*spectrum%frequency
+      allocate (spectrum%frequency(length/2 + 1), spectrum%density(length/2 + 1))
+      do k = 0, length/2
+         spectrum%frequency(k + 1) = k*spectrum%spacing
+      end do
+      spectrum%density = 0
       spectrum%segments = count_segments(size(values), length, overlap)
       do k = 1, spectrum%segments
          first = 1 + (k - 1)*shift(length, overlap)
