@@ -1,4 +1,4 @@
-!> dynsph-spectra probe: power spectral density of the signals of probes (docs/spectra_probe.md).
+!> dynsph-spectra probe: power spectral density of the signals of probes (docs/spectra.md).
 module probe_command
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: exit_input, failure

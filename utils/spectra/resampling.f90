@@ -19,7 +19,7 @@ contains
    !> The signal at even steps from its first time to its last, by the natural cubic spline through the samples.
    !!
    !! With steps uneven by 30 % straight lines lower a sine at half the Nyquist frequency by a fifth, the spline by 2 or 3 %
-   !! (docs/spectra_probe.md has the measured figures).
+   !! (docs/spectra.md has the measured figures).
    pure function resample(time, values, step) result(even)
       real(dp), intent(in) :: time(:)     !! (samples) rising, at least 3
       real(dp), intent(in) :: values(:)   !! (samples)

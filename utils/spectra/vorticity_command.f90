@@ -5,6 +5,7 @@ module vorticity_command
    use errors, only: exit_files, exit_input, failure
    use file_system, only: path_exists, write_whole_file
    use interpolation, only: filling, grid_t, grid_values, particle_vorticity
+   use kernel_transform, only: transform_of_kernel
    use kinds, only: dp
    use options, only: options_t
    use particle_snapshot, only: particle_snapshot_t, read_snapshot
@@ -264,10 +265,15 @@ contains
       call add('#   2  kh/pi [-]')
       call add('#   3  enstrophy_spectrum [length/time**2]')
       call add('#   4  energy_spectrum [length**3/time**2]')
-      call add('               wavenumber                    kh/pi       enstrophy_spectrum          energy_spectrum')
+      call add('#   5  enstrophy_left [-] of a wave''s enstrophy, behind derivative and interpolation')
+      call add('#   6  energy_left [-] of a wave''s energy, behind the interpolation')
+      call add('               wavenumber                    kh/pi       enstrophy_spectrum          energy_spectrum' &
+               //'           enstrophy_left              energy_left')
       do k = 1, size(enstrophy%k)
-         write (line, '(4es25.16e3)') enstrophy%k(k), enstrophy%k(k)*scheme_h*snapshot%spacing/pi, &
-            enstrophy%power(k)/enstrophy%width, energy%power(k)/energy%width
+         associate (w => enstrophy%k(k), derivative_h => scheme_h*snapshot%spacing)
+            write (line, '(6es25.16e3)') w, w*derivative_h/pi, enstrophy%power(k)/enstrophy%width, energy%power(k)/energy%width, &
+               (transform_of_kernel(derivative_h, w)*transform_of_kernel(h, w))**2, transform_of_kernel(h, w)**2
+         end associate
          call add(trim(line))
       end do
       call write_whole_file(output_name(path, 'spectrum'), content, problem)
