@@ -6,7 +6,7 @@
 if (!exists("plots")) plots = 'utils/plots'
 load plots.'/style.gp'
 curves = dir.'/curves/'
-set key inside right top vertical Left reverse samplen 2.5 spacing 1.2
+set key inside center top vertical Left reverse samplen 2.5 spacing 1.2
 set linetype 8 linecolor rgb black linewidth 2.4
 
 # Parts of plot commands, with a comma behind them; last ends it. Computed pressures are noisy: every step pale, their
@@ -45,16 +45,22 @@ do for [k in '1 3 4'] {
 }
 unset multiplot
 
-set terminal pngcairo size 1200,1000 font font
+set terminal pngcairo size 1200,1300 font font
 set output dir.'/buchner.png'
-set yrange [-0.1:2]
-set multiplot layout 2,1 margins 0.075,0.98,0.07,0.96 spacing 0,0.08
+set multiplot layout 3,1 margins 0.075,0.98,0.055,0.97 spacing 0,0.06
+set xlabel ''
+set yrange [-0.1:1.7]
 do for [height in '160 120'] {
-   set xlabel height eq '120' ? time : ''
-   set title 'Buchner, H = 600 mm, disc of 90 mm computed '.height.' mm above the floor' font 'DejaVu Sans,13' offset 0,-0.5
+   set title 'Buchner, H = 600 mm, P1 computed '.height.' mm above the floor' font 'DejaVu Sans,13' offset 0,-0.5
    eval 'plot '.steps('buchner_'.height).computed('buchner_'.height, 3) \
       .points('buchner_trixi', 6, 'measured, TrixiParticles').points('buchner_pysph', 1, 'measured, PySPH').last
 }
+set xlabel time
+set yrange [-0.1:0.8]
+set key left top
+set title 'P2, 584 mm above the floor' font 'DejaVu Sans,13' offset 0,-0.5
+eval 'plot '.steps('buchner_upper').computed('buchner_upper', 3).points('buchner_upper', 6, 'measured, TrixiParticles').last
+set key center top
 unset multiplot
 
 set terminal pngcairo size 1300,600 font font
@@ -69,7 +75,7 @@ set yrange [1:16]
 eval 'plot '.computed('front', 2) \
    .points('front_table2', 1, 'table 2, a = 57 mm').points('front_a225', 6, 'fig. 3, a = 57 mm') \
    .points('front_a1125', 8, 'fig. 3, a = 29 mm').last
-set key right top
+set key center top
 set title 'height at the left wall' font 'DejaVu Sans,13'
 set xlabel 't √(g/a)'
 set ylabel 'y / (2a)'
