@@ -6,10 +6,8 @@
 # time of a level), peak, mean_peak, plateau. Of a measured one and a computed one: rms, largest, shift, rms_shifted, all at
 # the measured times, or with _even at even ones and of the moving means. Of the band's lower end, a computed curve
 # and the upper end: inside. FROM and TO limit the time. A number that there is not is 'none'.
+FNR == 1 { f++ }
 /^[-+0-9.]/ {
-   if (FNR == 1 || FILENAME != file) file_number += FILENAME != file || !file_number
-   file = FILENAME
-   f = file_number ? file_number : 1
    # Digitised curves have points at the same time, one above the other.
    if (n[f] && $1 <= t[f, n[f]]) $1 = t[f, n[f]] + 1e-6
    n[f]++
@@ -56,12 +54,12 @@ function rms(shift,    k, time, difference, squares, count) {
 }
 function best_shift(    s, this, best, least) {
    best = 0; least = rms(0)
-   for (s = -60; s <= 150; s++) { this = rms(s/100); if (this < least) { least = this; best = s/100 } }
+   for (s = -50; s <= 150; s++) { this = rms(s/100); if (this < least) { least = this; best = s/100 } }
    return best
 }
 
 END {
-   if (n[1] < 2 || (file_number > 1 && n[2] < 2)) { print "none"; exit }
+   if (n[1] < 2 || (f > 1 && n[2] < 2)) { print "none"; exit }
    even = sub(/_even$/, "", task)
    points = even ? 960 : n[1]
    if (task == "curve") {
