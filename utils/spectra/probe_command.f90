@@ -109,6 +109,8 @@ contains
       first = trim(options%files(1))
       request%output = options%word('--output')
       if (request%output == '') request%output = first(:index(first, '/', back=.true.))//'probe_spectrum.dat'
+      if (any(options%files == request%output)) call problem%raise(exit_input, options%command//': --output ' &
+                                                                   //quoted(request%output)//' is a table to read')
       if (path_exists(request%output) .and. .not. options%given('--overwrite')) call problem%raise(exit_input, &
          quoted(request%output)//' is there already; --overwrite replaces it, --output FILE names another')
    end subroutine take_request
