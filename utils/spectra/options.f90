@@ -2,7 +2,7 @@
 module options
    use errors, only: exit_input, failure
    use kinds, only: dp
-   use text, only: nearest_word, parse_integer, parse_real, quoted
+   use text, only: nearest_word, parse_real, quoted
    implicit none
    private
 
@@ -32,7 +32,7 @@ module options
       procedure :: given
       procedure :: word
       procedure :: real_number
-      procedure :: integer_number
+      procedure :: check_choice
       procedure, private :: place
    end type options_t
 
@@ -169,15 +169,22 @@ contains
       if (message /= '') call problem%raise(exit_input, self%command//': '//name//' '//quoted(self%word(name))//': '//message)
    end function real_number
 
-   !> Its value as a whole number; raises exit_input if it is none.
-   integer function integer_number(self, name, problem)
+   !> Raises exit_input if its value is not one of those known.
+   subroutine check_choice(self, name, known, problem)
       class(options_t), intent(in) :: self
-      character(*), intent(in) :: name
+      character(*), intent(in) :: name, known(:)
       type(failure), intent(inout) :: problem
-      character(:), allocatable :: message
+      character(:), allocatable :: near, list
+      integer :: i
 
-      call parse_integer(self%word(name), integer_number, message)
-      if (message /= '') call problem%raise(exit_input, self%command//': '//name//' '//quoted(self%word(name))//': '//message)
-   end function integer_number
+      if (any(known == self%word(name))) return
+      list = trim(known(1))
+      do i = 2, size(known)
+         list = list//', '//trim(known(i))
+      end do
+      near = nearest_word(self%word(name), known)
+      if (near /= '') near = '; did you mean '//near//'?'
+      call problem%raise(exit_input, self%command//': there is no '//name//' '//quoted(self%word(name))//': '//list//near)
+   end subroutine check_choice
 
 end module options

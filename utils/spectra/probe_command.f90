@@ -8,7 +8,7 @@ module probe_command
    use probe_report, only: print_spectra, write_spectra
    use probe_signals, only: load_signals, signals_t
    use probe_spectra, only: compute_spectra, request_t, spectra_t
-   use text, only: nearest_word, quoted, short
+   use text, only: quoted, short
    use text_table_reader, only: table_name_length
    use windows, only: window_names
    implicit none
@@ -102,8 +102,8 @@ contains
       if (request%overlap < 0 .or. request%overlap >= 1) call problem%raise(exit_input, options%command//': --overlap ' &
                                                         //options%word('--overlap')//' is out of range: 0 or more, less than 1')
       request%window = options%word('--window')
-      call check_choice(options, '--window', window_names, problem)
-      call check_choice(options, '--detrend', [character(8) :: 'mean', 'line'], problem)
+      call options%check_choice('--window', window_names, problem)
+      call options%check_choice('--detrend', [character(8) :: 'mean', 'line'], problem)
       request%straight = options%word('--detrend') == 'line'
 
       first = trim(options%files(1))
@@ -143,23 +143,6 @@ contains
       if (.not. (number > 0 .or. problem%raised())) call problem%raise(exit_input, options%command//': '//name//' ' &
                                                                        //options%word(name)//' must be above 0')
    end subroutine take_positive
-
-   subroutine check_choice(options, name, known, problem)
-      type(options_t), intent(in) :: options
-      character(*), intent(in) :: name, known(:)
-      type(failure), intent(inout) :: problem
-      character(:), allocatable :: near, list
-      integer :: i
-
-      if (any(known == options%word(name))) return
-      list = trim(known(1))
-      do i = 2, size(known)
-         list = list//', '//trim(known(i))
-      end do
-      near = nearest_word(options%word(name), known)
-      if (near /= '') near = '; did you mean '//near//'?'
-      call problem%raise(exit_input, options%command//': there is no '//name//' '//quoted(options%word(name))//': '//list//near)
-   end subroutine check_choice
 
    ! The words between commas.
    subroutine take_list(list, words)

@@ -98,8 +98,7 @@ contains
       request%has_rectangle = options%given('--rectangle')
       if (request%has_rectangle) call take_rectangle(options%word('--rectangle'), options%command, request%rectangle, problem)
       if (problem%raised()) return
-      if (.not. any(window_names == request%window)) call problem%raise(exit_input, options%command//': --window ' &
-         //quoted(trim(request%window))//' is none of hann, hamming, blackman, none')
+      call options%check_choice('--window', window_names, problem)
       if (.not. (request%smoothing >= 1 .and. request%smoothing <= 10)) &
          call problem%raise(exit_input, options%command//': --smoothing must be from 1 to 10')
       if (.not. (request%least_filling > 0 .and. request%least_filling < 1)) &
@@ -143,7 +142,7 @@ contains
       integer :: corners(4)
 
       if (path_exists(output_name(path, 'spectrum')) .and. .not. request%overwrite) then
-         call problem%raise(exit_files, "'"//output_name(path, 'spectrum')//"' is there already; --overwrite replaces it")
+         call problem%raise(exit_input, "'"//output_name(path, 'spectrum')//"' is there already; --overwrite replaces it")
          return
       end if
       call read_snapshot(path, snapshot, problem)
