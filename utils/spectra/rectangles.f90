@@ -7,12 +7,14 @@ module rectangles
 
 contains
 
-   !> Corners [i1, j1, i2, j2] of the rectangle with the most points; zeros where no point holds.
+   !> Corners [i1, j1, i2, j2] of the rectangle with the most points among those at least so many points wide and high; zeros if
+   !! there is none.
    !!
    !! Row by row, each column is a bar as high as the points that hold above one another; the largest rectangle under the
    !! bars is found with a stack of rising bars.
-   pure function largest_rectangle(holds) result(corners)
+   pure function largest_rectangle(holds, least) result(corners)
       logical, intent(in) :: holds(:, :)   !! (nx, ny)
+      integer, intent(in) :: least
       integer :: corners(4)
       integer :: height(size(holds, 1) + 1), stack(size(holds, 1) + 1)
       integer :: area, i, j, left, n, top
@@ -29,7 +31,7 @@ contains
                if (height(stack(top)) < height(i)) exit
                left = 1
                if (top > 1) left = stack(top - 1) + 1
-               if (height(stack(top))*(i - left) > area) then
+               if (min(height(stack(top)), i - left) >= least .and. height(stack(top))*(i - left) > area) then
                   area = height(stack(top))*(i - left)
                   corners = [left, j - height(stack(top)) + 1, i - 1, j]
                end if

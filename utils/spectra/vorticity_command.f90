@@ -182,7 +182,7 @@ contains
    end function covering_grid
 
    !> The grid points asked for, or the largest rectangle of points inside the fluid.
-   !! Raises exit_files if it is too small or reaches out of the fluid.
+   !! Raises exit_input if it is too small or reaches out of the fluid.
    subroutine choose_rectangle(snapshot, request, grid, path, corners, problem)
       type(particle_snapshot_t), intent(in) :: snapshot
       type(request_t), intent(in) :: request
@@ -197,26 +197,26 @@ contains
          grid%lower = request%rectangle(1:2)
          grid%n = nint(min((request%rectangle(3:4) - request%rectangle(1:2))/grid%spacing, 1.0e8_dp)) + 1
       end if
-      if (product(real(grid%n, dp)) > 1.0e9_dp) then
-         call problem%raise(exit_files, path//': a grid of '//to_text(grid%n(1))//' x '//to_text(grid%n(2))// &
+      if (request%has_rectangle .and. any(grid%n < fewest)) then
+         call problem%raise(exit_input, path//': --rectangle has '//to_text(grid%n(1))//' x '//to_text(grid%n(2)) &
+                            //' points at spacing dx, and '//to_text(fewest)//' each way are needed')
+         return
+      else if (product(real(grid%n, dp)) > 1.0e9_dp) then
+         call problem%raise(exit_input, path//': a grid of '//to_text(grid%n(1))//' x '//to_text(grid%n(2))// &
                             ' points at spacing dx is too large; choose a part of the fluid by --rectangle')
          return
       end if
       call filling(snapshot, scheme_h*grid%spacing, grid, share)
       if (request%has_rectangle) then
          corners = [1, 1, grid%n]
-         if (any(share < request%least_filling)) call problem%raise(exit_files, path//': '//short(100*count(share < &
+         if (any(share < request%least_filling)) call problem%raise(exit_input, path//': '//short(100*count(share < &
             request%least_filling)/real(size(share), dp))//' % of --rectangle is not inside the fluid (sum W V below ' &
             //short(request%least_filling)//'); without it the largest rectangle in the fluid is found')
       else
-         corners = largest_rectangle(share >= request%least_filling)
-         if (corners(1) == 0) call problem%raise(exit_files, path//': no place is inside the fluid (sum W V >= ' &
-                                                 //short(request%least_filling)//')')
+         corners = largest_rectangle(share >= request%least_filling, fewest)
+         if (corners(1) == 0) call problem%raise(exit_input, path//': no rectangle of '//to_text(fewest)//' x '//to_text(fewest) &
+            //' points at spacing dx is inside the fluid (sum W V >= '//short(request%least_filling)//')')
       end if
-      if (problem%raised()) return
-      if (any(corners(3:4) - corners(1:2) + 1 < fewest)) call problem%raise(exit_files, path//': the rectangle has ' &
-         //to_text(corners(3) - corners(1) + 1)//' x '//to_text(corners(4) - corners(2) + 1)//' points at spacing dx, and ' &
-         //to_text(fewest)//' each way are needed')
    end subroutine choose_rectangle
 
    !> Shares above pi/(2h) and pi/h of the scheme.
