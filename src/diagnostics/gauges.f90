@@ -54,13 +54,13 @@ contains
       if (gauge%measure == 'wetted') value = 0
       if (gauge%measure == 'end') step = -step   ! from the far end: the first wet point is the last one
       s = merge(gauge%to, gauge%from, step < 0)
-      previous = volume_at(s)
+      previous = volume_at(model, p, near, gauge, s)
       if (previous >= at_surface .and. gauge%measure /= 'wetted') then
          value = s
          return
       end if
       do k = 1, n
-         here = volume_at(s + step)
+         here = volume_at(model, p, near, gauge, s + step)
          if (here >= at_surface .and. gauge%measure /= 'wetted') then
             value = s + step*(at_surface - previous)/(here - previous)
             return
@@ -73,17 +73,20 @@ contains
          previous = here
          s = s + step
       end do
-
-   contains
-
-      pure real(dp) function volume_at(s)
-         real(dp), intent(in) :: s
-         real(dp) :: pressure
-
-         if (gauge%along == 1) call sum_at(model, p, near, s, gauge%at, volume_at, pressure)
-         if (gauge%along == 2) call sum_at(model, p, near, gauge%at, s, volume_at, pressure)
-      end function volume_at
-
    end function measure_gauge
+
+   !> sum_j W V_j at a place on the line.
+   pure real(dp) function volume_at(model, p, near, gauge, s) result(volume)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      type(gauge_t), intent(in) :: gauge
+      real(dp), intent(in) :: s   !! its coordinate along the line
+      real(dp) :: place(2), pressure
+
+      place = gauge%at
+      place(gauge%along) = s
+      call sum_at(model, p, near, place(1), place(2), volume, pressure)
+   end function volume_at
 
 end module gauges

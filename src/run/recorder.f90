@@ -9,6 +9,7 @@ module recorder
    use errors, only: failure
    use gauges, only: gauge_t, measure_gauge, new_gauge
    use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
+   use images, only: bottom_wall, left_wall, right_wall
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -105,16 +106,21 @@ contains
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
       character(200) :: head(6 + size(scene%probes) + size(scene%gauges))
+      real(dp) :: width, height
       integer :: k, n
 
       n = size(scene%probes)
       allocate (self%sensors(n), self%gauges(size(scene%gauges)))
       head(1) = 'title: '//scene%scene%title
       head(2) = 'sampled every: '//scene%output%probes
-      ! For the acoustic modes of the box in spectra.
+      ! For the acoustic modes of the box in spectra; 0 where there are no walls for them.
+      width = 0
+      height = 0
+      if (all(model%walls%present([left_wall, right_wall]))) width = scene%domain%upper(1) - scene%domain%lower(1)
+      if (model%walls%present(bottom_wall)) height = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
       write (head(3), '(a, es23.16)') 'sound_speed: ', model%c0
-      write (head(4), '(a, es23.16)') 'domain_width: ', scene%domain%upper(1) - scene%domain%lower(1)
-      write (head(5), '(a, es23.16)') 'fluid_height: ', maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
+      write (head(4), '(a, es23.16)') 'domain_width: ', width
+      write (head(5), '(a, es23.16)') 'fluid_height: ', height
       head(6) = 'A pressure is the mean over a disc or segment on a wall; what is dry counts as 0.'
       do k = 1, n
          associate (probe => scene%probes(k))

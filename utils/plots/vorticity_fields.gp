@@ -21,8 +21,8 @@ rows_in(i) = int(system("grep -vc '^#' '".word(tables, i)."'"))
 x_min = y_min = 1e30; x_max = y_max = -1e30
 do for [i=1:n] {
    step = number(i, 'spacing', 1)
-   x0 = number(i, 'lower', 1); x1 = x0 + step*columns_in(i)
-   y0 = number(i, 'lower', 2); y1 = y0 + step*rows_in(i)
+   x0 = number(i, 'lower', 1) - step/2; x1 = x0 + step*columns_in(i)
+   y0 = number(i, 'lower', 2) - step/2; y1 = y0 + step*rows_in(i)
    if (x0 < x_min) { x_min = x0 }
    if (x1 > x_max) { x_max = x1 }
    if (y0 < y_min) { y_min = y0 }
@@ -44,7 +44,7 @@ set yrange [y_min:y_max]
 set cbrange [-limit:limit]
 set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')
 set cblabel 'ω'
-set ytics (y_max - y_min > 1 ? 0.5 : 0.2)
+set ytics autofreq
 do for [i=1:n] {
    bottom = foot + (n - i)*(frame_y + above + below) + below
    set lmargin at screen 1.0*left/(left + frame_x + right)

@@ -2,13 +2,13 @@
 module options
    use errors, only: exit_input, failure
    use kinds, only: dp
-   use text, only: nearest_word, parse_real, quoted
+   use text, only: nearest_word, parse_real, quoted, to_text
    implicit none
    private
 
    public :: options_t
 
-   integer, parameter :: name_length = 24, value_length = 240
+   integer, parameter :: name_length = 24, value_length = 1000
 
    !> One option.
    type :: option_t
@@ -79,22 +79,25 @@ contains
             if (equals > 0) call problem%raise(exit_input, self%command//': '//name//' takes no value')
             self%list(i)%given = .true.
          else if (equals > 0) then
-            call take(self%list(i), arguments(at) (equals + 1:))
+            call take(self%list(i), arguments(at) (equals + 1:), problem)
          else if (at == size(arguments)) then
             call problem%raise(exit_input, self%command//': '//name//' needs its '//trim(self%list(i)%value_name))
          else
             at = at + 1
-            call take(self%list(i), arguments(at))
+            call take(self%list(i), arguments(at), problem)
          end if
       end do
       allocate (character(len(arguments)) :: self%files(count(is_file)))
       self%files = pack(arguments, is_file)
    end subroutine parse
 
-   subroutine take(option, value)
+   subroutine take(option, value, problem)
       type(option_t), intent(inout) :: option
       character(*), intent(in) :: value
+      type(failure), intent(inout) :: problem
 
+      if (len_trim(value) > value_length) call problem%raise(exit_input, trim(option%name)//' is too long: at most ' &
+                                                             //to_text(value_length)//' letters')
       option%value = value
       option%given = .true.
    end subroutine take

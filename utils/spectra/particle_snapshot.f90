@@ -29,6 +29,7 @@ contains
       type(hdf5_reader_t) :: file
       character(name_length), allocatable :: names(:)
       real(dp), allocatable :: points(:, :), velocity(:, :), values(:, :)
+      real(dp) :: density, sound_speed
 
       call file%open(path, problem)
       if (.not. problem%raised()) then
@@ -44,6 +45,8 @@ contains
          snapshot%spacing = file%number('spacing')
          snapshot%gravity = file%number('gravity')
          snapshot%reference_length = file%number('reference_length')
+         density = file%number('density')
+         sound_speed = file%number('sound_speed')
          snapshot%x = points(1, :)
          snapshot%y = points(2, :)
          snapshot%u = velocity(1, :)
@@ -52,12 +55,12 @@ contains
          snapshot%volume = snapshot%spacing**2
          if (any(names == 'density')) then
             call file%read_field('density', values, problem)
-            if (.not. problem%raised()) snapshot%volume = snapshot%volume*file%number('density')/values(1, :)
-         else if (any(names == 'pressure') .and. file%number('sound_speed') > 0) then
+            if (.not. problem%raised()) snapshot%volume = snapshot%volume*density/values(1, :)
+         else if (any(names == 'pressure') .and. sound_speed > 0) then
             call file%read_field('pressure', values, problem)
             ! p = c0**2 (rho - rho0)
             if (.not. problem%raised()) snapshot%volume = snapshot%volume &
-               /(1 + values(1, :)/(file%number('density')*file%number('sound_speed')**2))
+               /(1 + values(1, :)/(density*sound_speed**2))
          end if
       end if
       call file%close()

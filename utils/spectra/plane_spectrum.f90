@@ -2,7 +2,7 @@
 !!
 !! With a window w and the field's weighted mean taken away, f' = f - sum(w f)/sum(w), each mode has the power
 !! |sum w f' exp(-i k.r)|**2/(n**2 mean(w**2)), so that the sum over all modes is mean((w f')**2)/mean(w**2): Parseval.
-!! Rings of width dk = 2 pi/min(Lx, Ly) gather the modes up to the Nyquist wavenumber pi/dx; beyond it are the
+!! Rings of width dk = 2 pi/max(Lx, Ly) gather the modes up to the Nyquist wavenumber pi/dx; beyond it are the
 !! corners of the square, which no ring has and the sums do.
 module plane_spectrum
    use fourier, only: transform_plane
@@ -35,7 +35,7 @@ contains
       type(rings_t), intent(out) :: rings
       integer :: i, j, m
 
-      rings%width = 2*pi/(minval(n)*spacing)
+      rings%width = 2*pi/(maxval(n)*spacing)
       rings%nyquist = pi/spacing
       m = floor(rings%nyquist/rings%width + 1.0e-9_dp)
       allocate (rings%k(m), rings%power(m), rings%mode_k(n(1)/2 + 1, n(2)), rings%mode_power(n(1)/2 + 1, n(2)))
@@ -60,6 +60,7 @@ contains
 
       associate (nx => size(field, 1), ny => size(field, 2))
          w = spread(window_values(window, nx), 2, ny)*spread(window_values(window, ny), 1, nx)
+         allocate (power(nx/2 + 1, ny))
          power = abs(transform_plane(w*(field - sum(w*field)/sum(w))))**2*factor/(real(nx, dp)*ny*sum(w**2))
          ! Columns whose mirror image is not among those kept count twice.
          power(2:(nx + 1)/2, :) = 2*power(2:(nx + 1)/2, :)

@@ -54,7 +54,7 @@ contains
       type(options_t), intent(inout) :: options
 
       options%command = 'dynsph-spectra probe'
-      call options%add('--probe', 'NAME,...', '', 'columns to take [all behind time and time_scaled]')
+      call options%add('--probe', 'NAME,...', '', 'columns to take [all in the unit of the first one, but constant ones]')
       call options%add('--from', 'T', '', 'leave out what is before, in the unit of the column time')
       call options%add('--to', 'T', '', 'leave out what is after')
       call options%add('--segment', 'T', '', 'length of a segment in time [a quarter of the range]')
@@ -111,8 +111,14 @@ contains
       if (request%output == '') request%output = first(:index(first, '/', back=.true.))//'probe_spectrum.dat'
       if (any(options%files == request%output)) call problem%raise(exit_input, options%command//': --output ' &
                                                                    //quoted(request%output)//' is a table to read')
-      if (path_exists(request%output) .and. .not. options%given('--overwrite')) call problem%raise(exit_input, &
-         quoted(request%output)//' is there already; --overwrite replaces it, --output FILE names another')
+      if (.not. path_exists(request%output)) return
+      if (.not. options%given('--overwrite')) then
+         call problem%raise(exit_input, quoted(request%output)//' is there already; --overwrite replaces it, --output FILE '// &
+                            'names another')
+      else if (.not. is_spectrum(request%output)) then
+         call problem%raise(exit_input, quoted(request%output)//' is not a table of spectra and is not replaced; --output FILE '// &
+                            'names another')
+      end if
    end subroutine take_request
 
    !> What the box is like: options, else what the first table says, else 0.
@@ -144,6 +150,23 @@ contains
                                                                        //options%word(name)//' must be above 0')
    end subroutine take_positive
 
+   !> Whether a file is what this command writes, so that nothing else is replaced.
+   logical function is_spectrum(path)
+      character(*), intent(in) :: path
+      character(200) :: line
+      integer :: status, unit
+
+      is_spectrum = .false.
+      open (newunit=unit, file=path, status='old', action='read', iostat=status)
+      if (status /= 0) return
+      do while (.not. is_spectrum)
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0 .or. line(1:1) /= '#') exit
+         is_spectrum = index(line, '# what: one-sided power spectral density') == 1
+      end do
+      close (unit)
+   end function is_spectrum
+
    ! The words between commas.
    subroutine take_list(list, words)
       character(*), intent(in) :: list
@@ -154,7 +177,10 @@ contains
       at = 1
       do while (at <= len(list))
          comma = index(list(at:)//',', ',') + at - 1
-         if (comma > at) words = [character(table_name_length) :: words, list(at:comma - 1)]
+         ! A name said twice is taken once.
+         associate (word => list(at:comma - 1))
+            if (word /= '' .and. .not. any(words == word)) words = [character(table_name_length) :: words, word]
+         end associate
          at = comma + 1
       end do
    end subroutine take_list

@@ -129,7 +129,10 @@ contains
       type(spectra_t), intent(in) :: spectra
       integer, intent(in) :: k
 
-      noise_share = spectra%mean(k)%power_above(request%above)/spectra%mean(k)%power_above(0.0_dp)
+      noise_share = 0
+      associate (all_of => spectra%mean(k)%power_above(0.0_dp))
+         if (all_of > 0) noise_share = spectra%mean(k)%power_above(request%above)/all_of
+      end associate
    end function noise_share
 
    pure function peak_text(spectra, k) result(words)
@@ -162,12 +165,13 @@ contains
          //short(request%sound_speed/(2*request%height))
       if (spectra%rate < (1 - 1.0e-9_dp)/spectra%median_step) write (unit, '(a)') 'note: --rate is below that of the samples (' &
          //short(1/spectra%median_step)//'): what is faster than '//short(spectra%rate/2)//' is folded back, not left out'
+      if (runs(1)%left_out /= '') write (unit, '(a)') 'left out, constant or of another unit: '//runs(1)%left_out
       share = ''
       if (request%above > 0) share = 'above '//short(request%above)
-      write (unit, '(a16, 4a16)') 'probe           ', 'variance', 'deviation', 'peak at', adjustr(share)
+      write (unit, '(a32, 4a16)') 'probe                           ', 'variance', 'deviation', 'peak at', adjustr(share)
       do k = 1, size(spectra%mean)
          if (request%above > 0) write (share, '(f14.4, " %")') 100*noise_share(request, spectra, k)
-         write (unit, '(a16, 2es16.4e3, 2a16)') runs(1)%names(k), spectra%mean(k)%power_above(0.0_dp), &
+         write (unit, '(a32, 2es16.4e3, 2a16)') runs(1)%names(k), spectra%mean(k)%power_above(0.0_dp), &
             sqrt(spectra%mean(k)%power_above(0.0_dp)), right(peak_text(spectra, k)), share
       end do
       write (unit, '(a)') request%output

@@ -20,6 +20,7 @@ module probe_signals
       real(dp), allocatable :: time(:)                         !! (samples)
       real(dp), allocatable :: values(:, :)                    !! (samples, probes)
       real(dp) :: scale = 1                                    !! time over time_scaled
+      character(:), allocatable :: left_out                    !! names of columns passed over, '' if none was
    end type signals_t
 
 contains
@@ -27,7 +28,7 @@ contains
    !> Reads the probes asked for within a range of time.
    subroutine load_signals(path, wanted, from, until, signals, problem)
       character(*), intent(in) :: path
-      character(*), intent(in) :: wanted(:)       !! names of columns; none: all that are no times
+      character(*), intent(in) :: wanted(:)       !! names of columns; none: all in the first probe's unit that vary
       real(dp), intent(in) :: from, until         !! in the unit of the column time
       type(signals_t), intent(out) :: signals
       type(failure), intent(inout) :: problem     !! what is missing or not a number, with file and line
@@ -46,17 +47,21 @@ contains
                places(i) = table%column(trim(wanted(i)), problem)
                if (problem%raised()) return
             end do
-         else
-            places = pack([(i, i=1, size(table%names))], table%names /= 'time' .and. table%names /= 'time_scaled')
+         else if (size(table%names) < 3) then
+            call problem%raise(exit_files, table%path//': no column but times: there is no probe')
+            return
          end if
-         if (size(places) == 0) call problem%raise(exit_files, table%path//': no column but times: there is no probe')
-         signals%names = table%names(places)
-         signals%units = table%units(places)
          call check_times(table, time, problem)
          if (problem%raised()) return
          rows = pack([(i, i=1, size(table%values, 2))], table%values(time, :) >= from .and. table%values(time, :) <= until)
          call check_number_of_rows(table, time, size(rows), problem)
-         if (.not. problem%raised()) call check_values(table, places, rows, problem)
+         if (problem%raised()) return
+         signals%left_out = ''
+         if (.not. allocated(places)) call choose_columns(table, rows, places, signals%left_out, problem)
+         if (problem%raised()) return
+         signals%names = table%names(places)
+         signals%units = table%units(places)
+         call check_values(table, places, rows, problem)
          if (.not. problem%raised()) call take_scale(table, time, time_scaled, rows, signals%scale, problem)
          if (problem%raised()) return
          signals%time = table%values(time, rows)
@@ -64,6 +69,34 @@ contains
          deallocate (table%values)
       end associate
    end subroutine load_signals
+
+   !> All columns that are no times, have the unit of the first of them and vary: a dry probe says nothing.
+   subroutine choose_columns(table, rows, places, left_out, problem)
+      type(text_table_t), intent(in) :: table
+      integer, intent(in) :: rows(:)
+      integer, allocatable, intent(out) :: places(:)
+      character(:), allocatable, intent(out) :: left_out
+      type(failure), intent(inout) :: problem
+      logical :: is_probe(size(table%names)), is_taken(size(table%names))
+      integer :: i
+
+      is_probe = table%names /= 'time' .and. table%names /= 'time_scaled'
+      is_taken = is_probe
+      left_out = ''
+      do i = 1, size(table%names)
+         if (.not. is_probe(i)) cycle
+         ! Not "all the same": NaN must reach its own message.
+         is_taken(i) = table%units(i) == table%units(findloc(is_probe, .true., dim=1)) &
+                       .and. .not. maxval(table%values(i, rows)) <= minval(table%values(i, rows))
+         if (.not. is_taken(i)) left_out = left_out//', '//trim(table%names(i))
+      end do
+      left_out = left_out(3:)
+      places = pack([(i, i=1, size(table%names))], is_taken)
+      if (size(places) == 0) then
+         call problem%raise(exit_input, table%path//': '//left_out//': the same all the time, or of another unit; --from and '// &
+                            '--to choose another range, --probe columns')
+      end if
+   end subroutine choose_columns
 
    subroutine take_scale(table, time, time_scaled, rows, scale, problem)
       type(text_table_t), intent(in) :: table

@@ -1,6 +1,6 @@
 !> dynsph-spectra vorticity: spectra of enstrophy and kinetic energy in a rectangle inside the fluid.
 module vorticity_command
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: exit_files, exit_input, failure
    use file_system, only: path_exists, write_whole_file
@@ -20,7 +20,7 @@ module vorticity_command
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: scheme_h = 2.0_dp   !! h/dx of the scheme
-   integer, parameter :: fewest = 8           !! points across a rectangle, so that there are four rings
+   integer, parameter :: fewest = 8           !! points across a rectangle
 
    !> What the user asks for.
    type :: request_t
@@ -78,8 +78,9 @@ contains
 
       write (output_unit, '(a)') 'usage: dynsph-spectra vorticity [options] SNAPSHOT.vtkhdf...', '', &
          'Writes vorticity_spectrum_NNNNNN.dat beside each snapshot_NNNNNN.vtkhdf: enstrophy and kinetic energy over', &
-         'wavenumber. Prints their means, and the shares of them above the wavenumbers pi/(2h) and pi/h, where the kernel', &
-         'resolves little and nothing: noise. docs/spectra.md has the definitions.', ''
+         'wavenumber, of what differs from the mean in a rectangle inside the fluid. Prints their sums, and the shares above', &
+         'the wavenumbers pi/(2h) and pi/h, where the kernel resolves little and nothing: noise.', &
+         'docs/spectra.md has the definitions.', ''
       call options%write_help(output_unit)
       write (output_unit, '(a)') '', &
          'example: dynsph-spectra vorticity --rectangle 0.5,0.02,4.8,0.3 results/dam_break/snapshot_000020.vtkhdf'
@@ -141,9 +142,10 @@ contains
       real(dp) :: h
       integer :: corners(4)
 
-      if (path_exists(output_name(path, 'spectrum')) .and. .not. request%overwrite) then
-         call problem%raise(exit_input, "'"//output_name(path, 'spectrum')//"' is there already; --overwrite replaces it")
-         return
+      if (.not. request%overwrite) then
+         call must_not_be_there(output_name(path, 'spectrum'), problem)
+         if (request%with_field) call must_not_be_there(output_name(path, 'field'), problem)
+         if (problem%raised()) return
       end if
       call read_snapshot(path, snapshot, problem)
       if (problem%raised()) return
@@ -152,10 +154,15 @@ contains
       call choose_rectangle(snapshot, request, grid, path, corners, problem)
       if (problem%raised()) return
       call particle_vorticity(snapshot, scheme_h*snapshot%spacing, vorticity)
-      if (request%with_field) call write_field(path, snapshot, h, grid, vorticity, problem)
+      if (request%with_field) call write_field(path, snapshot, h, vorticity, problem)
       grid%lower = grid%lower + grid%spacing*(corners(1:2) - 1)
       grid%n = corners(3:4) - corners(1:2) + 1
       call grid_values(snapshot, h, grid, reshape([vorticity, snapshot%u, snapshot%v], [size(vorticity), 3]), values)
+      if (any(ieee_is_nan(values))) then
+         call problem%raise(exit_input, path//': too few particles are near some points of the rectangle; choose another '// &
+                            '--rectangle or a larger --filling')
+         return
+      end if
       call new_rings(grid%n, grid%spacing, enstrophy)
       call new_rings(grid%n, grid%spacing, energy)
       call add_spectrum(enstrophy, values(:, :, 1), request%window, 0.5_dp)
@@ -171,6 +178,13 @@ contains
             short(grid%lower(1)), ', ', short(grid%lower(2)), ', ', short(last(1)), ', ', short(last(2)), '   ', path
       end associate
    end subroutine transform_snapshot
+
+   subroutine must_not_be_there(path, problem)
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem
+
+      if (path_exists(path)) call problem%raise(exit_input, "'"//path//"' is there already; --overwrite replaces it")
+   end subroutine must_not_be_there
 
    !> Points at spacing dx over all particles.
    pure type(grid_t) function covering_grid(snapshot) result(grid)
@@ -257,8 +271,8 @@ contains
       call add_numbers('enstrophy_shares_above', shares(enstrophy, snapshot%spacing))
       call add_numbers('energy', [energy%total])
       call add_numbers('energy_shares_above', shares(energy, snapshot%spacing))
-      call add('# enstrophy vorticity**2/2, energy |u|**2/2 per mass; a sum over the rows times their distance in wavenumber')
-      call add('# is the mean over the rectangle, but for what is above nyquist')
+      call add('# enstrophy vorticity**2/2 and energy |u|**2/2 of what differs from the mean, weighted by the window; the sum')
+      call add('# of the rows times their distance in wavenumber is that, but for what is above nyquist')
       call add('# columns, name [unit]:')
       call add('#   1  wavenumber [1/length]')
       call add('#   2  kh/pi [-]')
@@ -295,23 +309,25 @@ contains
 
    end subroutine write_spectrum
 
-   !> The vorticity on all of the grid, a row of numbers for each y, NaN where there is no fluid.
-   subroutine write_field(path, snapshot, h, grid, vorticity, problem)
+   !> The vorticity of all the fluid at spacing dx, a row of numbers for each y, NaN where there is no fluid.
+   subroutine write_field(path, snapshot, h, vorticity, problem)
       character(*), intent(in) :: path
       type(particle_snapshot_t), intent(in) :: snapshot
       real(dp), intent(in) :: h
-      type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: vorticity(:)
       type(failure), intent(inout) :: problem
       real(dp), allocatable :: share(:, :), values(:, :, :)
-      character(11*grid%n(1) + 1) :: row
+      type(grid_t) :: grid
+      character(:), allocatable :: row
       character(:), allocatable :: content
       character(240) :: line
       integer :: j
 
+      grid = covering_grid(snapshot)
       call filling(snapshot, scheme_h*grid%spacing, grid, share)
       call grid_values(snapshot, h, grid, reshape(vorticity, [size(vorticity), 1]), values)
       where (share < 0.5_dp) values(:, :, 1) = ieee_value(1.0_dp, ieee_quiet_nan)
+      allocate (character(11*grid%n(1) + 1) :: row)
       allocate (character(grid%n(2)*len(row)) :: content)
       do j = 1, grid%n(2)
          write (row, '(*(es11.3))') values(:, j, 1)
