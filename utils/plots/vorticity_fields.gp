@@ -59,6 +59,7 @@ do for [i=1:n] {
    if (i == n) { set format x '%g' } else { set format x '' }
    set ylabel 'y' offset 1,0
    step = number(i, 'spacing', 1)
-   plot word(tables, i) matrix using (number(i, 'lower', 1) + step*$1):(number(i, 'lower', 2) + step*$2):3 with image
+   x0 = number(i, 'lower', 1); y0 = number(i, 'lower', 2)   # not in `using`: it would be looked up for each point
+   plot word(tables, i) matrix using (x0 + step*$1):(y0 + step*$2):3 with image
 }
 unset multiplot
