@@ -2,8 +2,9 @@
 !!
 !! With a window w and the field's weighted mean taken away, f' = f - sum(w f)/sum(w), each mode has the power
 !! |sum w f' exp(-i k.r)|**2/(n**2 mean(w**2)), so that the sum over all modes is mean((w f')**2)/mean(w**2): Parseval.
-!! Rings of width dk = 2 pi/max(Lx, Ly) gather the modes up to the Nyquist wavenumber pi/dx; beyond it are the
-!! corners of the square, which no ring has and the sums do.
+!! Rings gather the modes up to the Nyquist wavenumber pi/dx. They are dk = 2 pi/min(Lx, Ly) wide, the distance of modes in the
+!! shorter direction; below dk/2 there are only modes of the longer direction, and rings are as narrow as their distance. Beyond
+!! pi/dx are the corners of the square, which no ring has and the sums do.
 module plane_spectrum
    use fourier, only: transform_plane
    use kinds, only: dp
@@ -17,10 +18,12 @@ module plane_spectrum
 
    !> Power of one or more fields over rings of wavenumber.
    type :: rings_t
-      real(dp) :: width = 0                  !! dk [1/m]
       real(dp) :: nyquist = 0                !! pi/dx [1/m]
       real(dp) :: total = 0                  !! of all modes, corners too
-      real(dp), allocatable :: k(:)          !! (rings) middle: 1, 2, ... dk
+      real(dp), allocatable :: k(:)          !! (rings) middle
+      real(dp), allocatable :: width(:)      !! (rings)
+      real(dp) :: fine = 0, coarse = 0       !! distance of modes in the longer and the shorter direction
+      integer :: n_fine = 0                  !! rings of width `fine`
       real(dp), allocatable :: power(:)      !! (rings) sum over a ring's modes
       real(dp), allocatable :: mode_k(:, :)      !! (nx/2 + 1, ny) of every mode of the half plane
       real(dp), allocatable :: mode_power(:, :)  !! the same, counting a mode's mirror image with it
@@ -35,11 +38,21 @@ contains
       type(rings_t), intent(out) :: rings
       integer :: i, j, m
 
-      rings%width = 2*pi/(maxval(n)*spacing)
+      rings%fine = 2*pi/(maxval(n)*spacing)
+      rings%coarse = 2*pi/(minval(n)*spacing)
       rings%nyquist = pi/spacing
-      m = floor(rings%nyquist/rings%width + 1.0e-9_dp)
-      allocate (rings%k(m), rings%power(m), rings%mode_k(n(1)/2 + 1, n(2)), rings%mode_power(n(1)/2 + 1, n(2)))
-      rings%k = rings%width*[(i, i=1, m)]
+      rings%n_fine = max(0, floor((rings%coarse/rings%fine - 1)/2 + 1.0e-9_dp))
+      m = rings%n_fine + floor(rings%nyquist/rings%coarse + 1.0e-9_dp)
+      allocate (rings%k(m), rings%width(m), rings%power(m), rings%mode_k(n(1)/2 + 1, n(2)), rings%mode_power(n(1)/2 + 1, n(2)))
+      associate (f => rings%n_fine, edge => (rings%n_fine + 0.5_dp)*rings%fine)
+         rings%k(:f) = rings%fine*[(i, i=1, f)]
+         rings%width(:f) = rings%fine
+         rings%k(f + 1:) = rings%coarse*[(i, i=1, m - f)]
+         rings%width(f + 1:) = rings%coarse
+         ! The first wide ring begins where the narrow ones end.
+         rings%width(f + 1) = 1.5_dp*rings%coarse - edge
+         rings%k(f + 1) = 1.5_dp*rings%coarse - rings%width(f + 1)/2
+      end associate
       rings%power = 0
       rings%mode_power = 0
       do j = 1, n(2)
@@ -69,11 +82,20 @@ contains
       rings%total = rings%total + sum(power)
       do j = 1, size(power, 2)
          do i = 1, size(power, 1)
-            ring = nint(rings%mode_k(i, j)/rings%width)
+            ring = ring_of(rings, rings%mode_k(i, j))
             if (ring >= 1 .and. ring <= size(rings%k)) rings%power(ring) = rings%power(ring) + power(i, j)
          end do
       end do
    end subroutine add_spectrum
+
+   !> The ring of a wavenumber; 0 for none.
+   pure integer function ring_of(rings, k) result(ring)
+      type(rings_t), intent(in) :: rings
+      real(dp), intent(in) :: k
+
+      ring = nint(k/rings%fine)
+      if (ring > rings%n_fine) ring = rings%n_fine + max(1, nint(k/rings%coarse))
+   end function ring_of
 
    !> Power of all modes above a wavenumber.
    pure real(dp) function power_above(rings, k)

@@ -253,7 +253,7 @@ contains
       type(rings_t), intent(in) :: enstrophy, energy
       type(failure), intent(inout) :: problem
       character(:), allocatable :: content
-      character(160) :: line
+      character(200) :: line
       integer :: k
 
       content = ''
@@ -272,19 +272,20 @@ contains
       call add_numbers('energy', [energy%total])
       call add_numbers('energy_shares_above', shares(energy, snapshot%spacing))
       call add('# enstrophy vorticity**2/2 and energy |u|**2/2 of what differs from the mean, weighted by the window; the sum')
-      call add('# of the rows times their distance in wavenumber is that, but for what is above nyquist')
+      call add('# of the rows times their width is that, but for what is above nyquist')
       call add('# columns, name [unit]:')
       call add('#   1  wavenumber [1/length]')
       call add('#   2  kh/pi [-]')
-      call add('#   3  enstrophy_spectrum [length/time**2]')
-      call add('#   4  energy_spectrum [length**3/time**2]')
-      call add('#   5  enstrophy_left [-] of a wave''s enstrophy, behind derivative and interpolation')
-      call add('#   6  energy_left [-] of a wave''s energy, behind the interpolation')
-      call add('               wavenumber                    kh/pi       enstrophy_spectrum          energy_spectrum' &
-               //'           enstrophy_left              energy_left')
+      call add('#   3  width [1/length] of the ring')
+      call add('#   4  enstrophy_spectrum [length/time**2]')
+      call add('#   5  energy_spectrum [length**3/time**2]')
+      call add('#   6  enstrophy_left [-] of a wave''s enstrophy, behind derivative and interpolation')
+      call add('#   7  energy_left [-] of a wave''s energy, behind the interpolation')
+      call add('               wavenumber                    kh/pi                    width       enstrophy_spectrum' &
+               //'          energy_spectrum           enstrophy_left              energy_left')
       do k = 1, size(enstrophy%k)
-         associate (w => enstrophy%k(k), derivative_h => scheme_h*snapshot%spacing)
-            write (line, '(6es25.16e3)') w, w*derivative_h/pi, enstrophy%power(k)/enstrophy%width, energy%power(k)/energy%width, &
+         associate (w => enstrophy%k(k), dk => enstrophy%width(k), derivative_h => scheme_h*snapshot%spacing)
+            write (line, '(7es25.16e3)') w, w*derivative_h/pi, dk, enstrophy%power(k)/dk, energy%power(k)/dk, &
                (transform_of_kernel(derivative_h, w)*transform_of_kernel(h, w))**2, transform_of_kernel(h, w)**2
          end associate
          call add(trim(line))
