@@ -2,7 +2,8 @@
 #
 # usage: gnuplot -e "tables='A.dat B.dat'; labels='A B'; png='FILE.png'" utils/plots/vorticity_fields.gp
 #
-# limit: largest |vorticity| of the colours, in the units of the run; the same for all. labels: one word each, '_' for a blank.
+# limit: largest |vorticity| of the colours, in the units of the run; the same for all. top: largest y shown. labels: one word each,
+# '_' for a blank.
 if (!exists("plots")) plots = 'utils/plots'
 load plots.'/style.gp'
 if (!exists("labels")) labels = tables
