@@ -85,9 +85,11 @@ contains
       left_out = ''
       do i = 1, size(table%names)
          if (.not. is_probe(i)) cycle
-         ! Not "all the same": NaN must reach its own message.
-         is_taken(i) = table%units(i) == table%units(findloc(is_probe, .true., dim=1)) &
-                       .and. .not. maxval(table%values(i, rows)) <= minval(table%values(i, rows))
+         is_taken(i) = table%units(i) == table%units(findloc(is_probe, .true., dim=1))
+         associate (y => table%values(i, rows))
+            ! What is not finite has a message of its own.
+            if (all(ieee_is_finite(y))) is_taken(i) = is_taken(i) .and. maxval(y) > minval(y)
+         end associate
          if (.not. is_taken(i)) left_out = left_out//', '//trim(table%names(i))
       end do
       left_out = left_out(3:)
