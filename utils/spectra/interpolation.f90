@@ -1,23 +1,36 @@
-!> Vorticity of particles, and values of particles at any place, both exact for what is linear in x and y.
+!> Values of a snapshot's particles at any place, exact for what is linear in x and y.
 !!
-!! Vorticity: the renormalised gradient of the velocity (eqs. 19-24), du_a/dx_b = sum_j (u_j - u_i)_a (L grad W)_b V_j.
-!! Interpolation: moving least squares (Belytschko et al. 1996) with the basis p = (1, x - x_j, y - y_j),
-!! f(x) = sum_j f_j W_j V_j p_j.c with (sum_j W_j V_j p_j p_j^T) c = (1, 0, 0).
+!! The particles are sorted as the solver sorts them, without walls or images, so that its own neighbours, kernel sums and
+!! vorticity serve here too. Interpolation: moving least squares (Belytschko et al. 1996) with the basis
+!! p = (1, x - x_j, y - y_j), f(x) = sum_j f_j W_j V_j p_j.c with (sum_j W_j V_j p_j p_j^T) c = (1, 0, 0).
 module interpolation
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use cells, only: cells_t, find_near, new_cells
-   use kernel, only: kernel_gradient, kernel_t, kernel_value, new_kernel
+   use errors, only: exit_files, failure
+   use kernel, only: kernel_t, kernel_value, new_kernel
    use kinds, only: dp
+   use model, only: model_t
+   use neighbours, only: list_ranges, neighbours_t, ranges_around, sort_particles
    use particle_snapshot, only: particle_snapshot_t
+   use particles, only: allocate_particles, particles_t
+   use point_sums, only: sum_at
+   use strips, only: ranges_t
    implicit none
    private
 
+   public :: fluid_t, grid_t, sort_fluid, filling, grid_values
+
+   real(dp), parameter, public :: scheme_h = 2.0_dp   !! h/dx of the scheme
    real(dp), parameter :: singular = 1.0e-3_dp   !! of a determinant over its trace squared: all in a line, or nearly
 
-   public :: particle_vorticity, grid_values, filling
+   !> The particles of a snapshot, sorted.
+   type :: fluid_t
+      type(model_t) :: model
+      type(particles_t) :: p
+      type(neighbours_t) :: near
+   end type fluid_t
 
    !> A regular grid of points.
-   type, public :: grid_t
+   type :: grid_t
       real(dp) :: lower(2) = 0       !! its first point
       real(dp) :: spacing = 1
       integer :: n(2) = 0            !! points in x and y
@@ -25,115 +38,111 @@ module interpolation
 
 contains
 
-   !> dv/dx - du/dy of every particle; 0 where a particle's neighbours stand in a line.
-   subroutine particle_vorticity(snapshot, h, vorticity)
+   !> Sorts the particles into strips. Raises exit_files if they are too far from each other for that.
+   subroutine sort_fluid(snapshot, fluid, problem)
       type(particle_snapshot_t), intent(in) :: snapshot
-      real(dp), intent(in) :: h                            !! smoothing length
-      real(dp), allocatable, intent(out) :: vorticity(:)   !! (n)
-      type(kernel_t) :: kernel
-      type(cells_t) :: cells
-      real(dp) :: m(2, 2), u(2), v(2), d(2), f, determinant
-      integer, allocatable :: near(:)
-      integer :: i, k
+      type(fluid_t), intent(out) :: fluid
+      type(failure), intent(inout) :: problem
+      logical :: scattered
+      integer :: i, n
 
-      kernel = new_kernel(h)
-      cells = new_cells(snapshot%x, snapshot%y, kernel%support)
-      allocate (vorticity(size(snapshot%x)))
-      !$omp parallel do default(none) shared(snapshot, kernel, cells, vorticity) private(m, u, v, d, f, determinant, near, k) &
-      !$omp schedule(dynamic, 256)
-      do i = 1, size(snapshot%x)
-         call find_near(cells, snapshot%x(i), snapshot%y(i), near)
-         m = 0
-         u = 0
-         v = 0
-         do k = 1, size(near)
-            associate (j => near(k))
-               d = [snapshot%x(j) - snapshot%x(i), snapshot%y(j) - snapshot%y(i)]
-               f = kernel_gradient(kernel, norm2(d))*snapshot%volume(j)
-               m = m + f*spread(d, 2, 2)*spread(d, 1, 2)
-               u = u + f*d*(snapshot%u(j) - snapshot%u(i))
-               v = v + f*d*(snapshot%v(j) - snapshot%v(i))
-            end associate
-         end do
-         determinant = m(1, 1)*m(2, 2) - m(1, 2)**2
-         vorticity(i) = 0
-         if (determinant > singular*(m(1, 1) + m(2, 2))**2) &
-            vorticity(i) = (m(2, 2)*v(1) - m(1, 2)*v(2) - m(1, 1)*u(2) + m(1, 2)*u(1))/determinant
-      end do
-      !$omp end parallel do
-   end subroutine particle_vorticity
+      n = size(snapshot%x)
+      fluid%model%dx = snapshot%spacing
+      fluid%model%kernel = new_kernel(scheme_h*snapshot%spacing)
+      fluid%model%c0 = 1
+      fluid%model%rho0 = 1
+      call allocate_particles(fluid%p, n)
+      fluid%p%n_own = n
+      fluid%p%id(1:n) = [(i, i=1, n)]
+      fluid%p%m(1:n) = snapshot%volume
+      fluid%p%next%x(1:n) = snapshot%x
+      fluid%p%next%y(1:n) = snapshot%y
+      fluid%p%next%u(1:n) = snapshot%u
+      fluid%p%next%v(1:n) = snapshot%v
+      fluid%p%next%s(1:n) = 0
+      fluid%p%next%w(1:n) = snapshot%volume
+      associate (model => fluid%model, near => fluid%near)
+         near%slack = 0
+         call sort_particles(near, fluid%p, model%kernel, model%walls, model%dx, 0.0_dp, scattered)
+         if (scattered) then
+            call problem%raise(exit_files, 'some particles are too far from the others to be sorted')
+            return
+         end if
+         call list_ranges(near, fluid%p, model%kernel, 0.0_dp)
+      end associate
+   end subroutine sort_fluid
 
-   !> sum_j W V_j at every point of a grid: 1 inside the fluid, 0 outside, 1/2 at its edges.
-   subroutine filling(snapshot, h, grid, share)
-      type(particle_snapshot_t), intent(in) :: snapshot
-      real(dp), intent(in) :: h
+   !> sum_j W V_j at every point of a grid, with the scheme's kernel: 1 inside the fluid, 0 outside, 1/2 at its edges.
+   subroutine filling(fluid, grid, share)
+      type(fluid_t), intent(in) :: fluid
       type(grid_t), intent(in) :: grid
       real(dp), allocatable, intent(out) :: share(:, :)   !! (nx, ny)
-      type(kernel_t) :: kernel
-      type(cells_t) :: cells
-      integer, allocatable :: near(:)
-      real(dp) :: place(2)
+      real(dp) :: place(2), ignored
       integer :: i, j
 
-      kernel = new_kernel(h)
-      cells = new_cells(snapshot%x, snapshot%y, kernel%support)
       allocate (share(grid%n(1), grid%n(2)))
-      !$omp parallel do default(none) shared(snapshot, grid, kernel, cells, share) private(i, near, place) schedule(dynamic, 4)
+      !$omp parallel do default(none) shared(fluid, grid, share) private(i, place, ignored) schedule(dynamic, 4)
       do j = 1, grid%n(2)
          do i = 1, grid%n(1)
             place = grid%lower + grid%spacing*[i - 1, j - 1]
-            call find_near(cells, place(1), place(2), near)
-            share(i, j) = sum(kernel_value(kernel, hypot(snapshot%x(near) - place(1), snapshot%y(near) - place(2))) &
-                              *snapshot%volume(near))
+            call sum_at(fluid%model, fluid%p, fluid%near, place(1), place(2), share(i, j), ignored)
          end do
       end do
       !$omp end parallel do
    end subroutine filling
 
    !> Fields of the particles at the points of a grid; NaN where too few particles are near for a linear field.
-   subroutine grid_values(snapshot, h, grid, fields, values)
-      type(particle_snapshot_t), intent(in) :: snapshot
-      real(dp), intent(in) :: h
+   subroutine grid_values(fluid, h, grid, fields, values)
+      type(fluid_t), intent(in) :: fluid
+      real(dp), intent(in) :: h                               !! smoothing length of the interpolation
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: fields(:, :)                    !! (n, fields)
+      real(dp), intent(in) :: fields(:, :)                    !! (slots, fields)
       real(dp), allocatable, intent(out) :: values(:, :, :)   !! (nx, ny, fields)
       type(kernel_t) :: kernel
-      type(cells_t) :: cells
       integer :: i, j
 
       kernel = new_kernel(h)
-      cells = new_cells(snapshot%x, snapshot%y, kernel%support)
       allocate (values(grid%n(1), grid%n(2), size(fields, 2)))
-      !$omp parallel do default(none) shared(snapshot, grid, kernel, cells, fields, values) private(i) schedule(dynamic, 4)
+      !$omp parallel do default(none) shared(fluid, grid, kernel, fields, values) private(i) schedule(dynamic, 4)
       do j = 1, grid%n(2)
          do i = 1, grid%n(1)
-            call value_at(snapshot, kernel, cells, grid%lower + grid%spacing*[i - 1, j - 1], fields, values(i, j, :))
+            call value_at(fluid, kernel, grid%lower + grid%spacing*[i - 1, j - 1], fields, values(i, j, :))
          end do
       end do
       !$omp end parallel do
    end subroutine grid_values
 
-   subroutine value_at(snapshot, kernel, cells, place, fields, value)
-      type(particle_snapshot_t), intent(in) :: snapshot
+   subroutine value_at(fluid, kernel, place, fields, value)
+      type(fluid_t), intent(in) :: fluid
       type(kernel_t), intent(in) :: kernel
-      type(cells_t), intent(in) :: cells
       real(dp), intent(in) :: place(2)
       real(dp), intent(in) :: fields(:, :)
       real(dp), intent(out) :: value(:)                      !! (fields)
-      integer, allocatable :: near(:)
+      type(ranges_t) :: ranges
       real(dp), allocatable :: dx(:), dy(:), weight(:)
+      integer, allocatable :: slots(:)
       real(dp) :: c(3)
       logical :: solved
-      integer :: k
+      integer :: j, k, n
 
-      call find_near(cells, place(1), place(2), near)
-      dx = (snapshot%x(near) - place(1))/kernel%h
-      dy = (snapshot%y(near) - place(2))/kernel%h
-      weight = kernel_value(kernel, kernel%h*hypot(dx, dy))*snapshot%volume(near)
+      call ranges_around(fluid%near, place(1), place(2), kernel%support, ranges)
+      allocate (slots(sum(ranges%last(:ranges%n) - ranges%first(:ranges%n) + 1)))
+      n = 0
+      do k = 1, ranges%n
+         do j = ranges%first(k), ranges%last(k)
+            if (hypot(fluid%p%base%x(j) - place(1), fluid%p%base%y(j) - place(2)) >= kernel%support) cycle
+            n = n + 1
+            slots(n) = j
+         end do
+      end do
+      slots = slots(:n)
+      dx = (fluid%p%base%x(slots) - place(1))/kernel%h
+      dy = (fluid%p%base%y(slots) - place(2))/kernel%h
+      weight = kernel_value(kernel, kernel%h*hypot(dx, dy))*fluid%p%base%w(slots)
       call least_squares(dx, dy, weight, c, solved)
       if (solved) then
          weight = weight*(c(1) + c(2)*dx + c(3)*dy)
-         value = [(sum(weight*fields(near, k)), k=1, size(value))]
+         value = [(sum(weight*fields(slots, k)), k=1, size(value))]
       else
          value = ieee_value(value(1), ieee_quiet_nan)
       end if

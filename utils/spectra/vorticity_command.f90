@@ -4,7 +4,8 @@ module vorticity_command
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: exit_files, exit_input, failure
    use file_system, only: path_exists, write_whole_file
-   use interpolation, only: filling, grid_t, grid_values, particle_vorticity
+   use gradient_fields, only: gradient_fields_t, measure_gradients
+   use interpolation, only: filling, fluid_t, grid_t, grid_values, scheme_h, sort_fluid
    use kernel_transform, only: transform_of_kernel
    use kinds, only: dp
    use options, only: options_t
@@ -19,7 +20,6 @@ module vorticity_command
    public :: run_vorticity_command
 
    real(dp), parameter :: pi = acos(-1.0_dp)
-   real(dp), parameter :: scheme_h = 2.0_dp   !! h/dx of the scheme
    integer, parameter :: fewest = 8           !! points across a rectangle
 
    !> What the user asks for.
@@ -100,8 +100,8 @@ contains
       if (request%has_rectangle) call take_rectangle(options%word('--rectangle'), options%command, request%rectangle, problem)
       if (problem%raised()) return
       call options%check_choice('--window', window_names, problem)
-      if (.not. (request%smoothing >= 1 .and. request%smoothing <= 10)) &
-         call problem%raise(exit_input, options%command//': --smoothing must be from 1 to 10')
+      if (.not. (request%smoothing >= 1 .and. request%smoothing <= 4)) &
+         call problem%raise(exit_input, options%command//': --smoothing must be from 1 to 4')
       if (.not. (request%least_filling > 0 .and. request%least_filling < 1)) &
          call problem%raise(exit_input, options%command//': --filling must be between 0 and 1')
    end subroutine take_request
@@ -138,7 +138,9 @@ contains
       type(particle_snapshot_t) :: snapshot
       type(grid_t) :: grid
       type(rings_t) :: enstrophy, energy
-      real(dp), allocatable :: vorticity(:), values(:, :, :)
+      type(fluid_t) :: fluid
+      type(gradient_fields_t) :: gradients
+      real(dp), allocatable :: values(:, :, :)
       real(dp) :: h
       integer :: corners(4)
 
@@ -150,14 +152,18 @@ contains
       call read_snapshot(path, snapshot, problem)
       if (problem%raised()) return
       h = request%smoothing*snapshot%spacing
-      grid = covering_grid(snapshot)
-      call choose_rectangle(snapshot, request, grid, path, corners, problem)
+      call sort_fluid(snapshot, fluid, problem)
       if (problem%raised()) return
-      call particle_vorticity(snapshot, scheme_h*snapshot%spacing, vorticity)
-      if (request%with_field) call write_field(path, snapshot, h, vorticity, problem)
+      grid = covering_grid(snapshot)
+      call choose_rectangle(fluid, request, grid, path, corners, problem)
+      if (problem%raised()) return
+      call measure_gradients(fluid%model, fluid%p, fluid%near, gradients)
+      if (request%with_field) call write_field(path, snapshot, fluid, h, gradients%vorticity, problem)
       grid%lower = grid%lower + grid%spacing*(corners(1:2) - 1)
       grid%n = corners(3:4) - corners(1:2) + 1
-      call grid_values(snapshot, h, grid, reshape([vorticity, snapshot%u, snapshot%v], [size(vorticity), 3]), values)
+      associate (n => fluid%p%n_own, base => fluid%p%base)
+         call grid_values(fluid, h, grid, reshape([gradients%vorticity, base%u(:n), base%v(:n)], [n, 3]), values)
+      end associate
       if (any(ieee_is_nan(values))) then
          call problem%raise(exit_input, path//': too few particles are near some points of the rectangle; choose another '// &
                             '--rectangle or a larger --filling')
@@ -197,8 +203,8 @@ contains
 
    !> The grid points asked for, or the largest rectangle of points inside the fluid.
    !! Raises exit_input if it is too small or reaches out of the fluid.
-   subroutine choose_rectangle(snapshot, request, grid, path, corners, problem)
-      type(particle_snapshot_t), intent(in) :: snapshot
+   subroutine choose_rectangle(fluid, request, grid, path, corners, problem)
+      type(fluid_t), intent(in) :: fluid
       type(request_t), intent(in) :: request
       type(grid_t), intent(inout) :: grid
       character(*), intent(in) :: path
@@ -220,7 +226,7 @@ contains
                             ' points at spacing dx is too large; choose a part of the fluid by --rectangle')
          return
       end if
-      call filling(snapshot, scheme_h*grid%spacing, grid, share)
+      call filling(fluid, grid, share)
       if (request%has_rectangle) then
          corners = [1, 1, grid%n]
          if (any(share < request%least_filling)) call problem%raise(exit_input, path//': '//short(100*count(share < &
@@ -311,11 +317,12 @@ contains
    end subroutine write_spectrum
 
    !> The vorticity of all the fluid at spacing dx, a row of numbers for each y, NaN where there is no fluid.
-   subroutine write_field(path, snapshot, h, vorticity, problem)
+   subroutine write_field(path, snapshot, fluid, h, vorticity, problem)
       character(*), intent(in) :: path
       type(particle_snapshot_t), intent(in) :: snapshot
+      type(fluid_t), intent(in) :: fluid
       real(dp), intent(in) :: h
-      real(dp), intent(in) :: vorticity(:)
+      real(dp), intent(in) :: vorticity(:)   !! (slots)
       type(failure), intent(inout) :: problem
       real(dp), allocatable :: share(:, :), values(:, :, :)
       type(grid_t) :: grid
@@ -325,8 +332,8 @@ contains
       integer :: j
 
       grid = covering_grid(snapshot)
-      call filling(snapshot, scheme_h*grid%spacing, grid, share)
-      call grid_values(snapshot, h, grid, reshape(vorticity, [size(vorticity), 1]), values)
+      call filling(fluid, grid, share)
+      call grid_values(fluid, h, grid, reshape(vorticity, [size(vorticity), 1]), values)
       where (share < 0.5_dp) values(:, :, 1) = ieee_value(1.0_dp, ieee_quiet_nan)
       allocate (character(11*grid%n(1) + 1) :: row)
       allocate (character(grid%n(2)*len(row)) :: content)
