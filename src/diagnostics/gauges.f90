@@ -44,36 +44,73 @@ contains
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(gauge_t), intent(in) :: gauge
-      real(dp) :: s, step, previous, here, share
+
+      select case (gauge%measure)
+      case ('end')
+         value = first_wet(model, p, near, gauge, gauge%to, gauge%from)
+      case ('start')
+         value = first_wet(model, p, near, gauge, gauge%from, gauge%to)
+      case default
+         value = wetted_length(model, p, near, gauge)
+      end select
+   end function measure_gauge
+
+   !> Pieces of a line: half a spacing resolves what particles can.
+   pure integer function pieces(model, gauge)
+      type(model_t), intent(in) :: model
+      type(gauge_t), intent(in) :: gauge
+
+      pieces = max(1, ceiling((gauge%to - gauge%from)/(0.5_dp*model%dx)))
+   end function pieces
+
+   !> Where the fluid begins on the way from one end of the line to the other; `to` on a dry line.
+   pure real(dp) function first_wet(model, p, near, gauge, from, to) result(place)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      type(gauge_t), intent(in) :: gauge
+      real(dp), intent(in) :: from, to
+      real(dp) :: step, previous, here
       integer :: k, n
 
-      ! Half a spacing resolves what particles can.
-      n = max(1, ceiling((gauge%to - gauge%from)/(0.5_dp*model%dx)))
-      step = (gauge%to - gauge%from)/n
-      value = merge(gauge%from, gauge%to, gauge%measure == 'end')
-      if (gauge%measure == 'wetted') value = 0
-      if (gauge%measure == 'end') step = -step   ! from the far end: the first wet point is the last one
-      s = merge(gauge%to, gauge%from, step < 0)
-      previous = volume_at(model, p, near, gauge, s)
-      if (previous >= at_surface .and. gauge%measure /= 'wetted') then
-         value = s
-         return
-      end if
+      n = pieces(model, gauge)
+      step = (to - from)/n
+      here = volume_at(model, p, near, gauge, from)
+      place = from
+      if (here >= at_surface) return
       do k = 1, n
-         here = volume_at(model, p, near, gauge, s + step)
-         if (here >= at_surface .and. gauge%measure /= 'wetted') then
-            value = s + step*(at_surface - previous)/(here - previous)
-            return
-         end if
-         ! The part of this piece that is wet, with the sum linear between its ends.
-         share = merge(1.0_dp, 0.0_dp, min(previous, here) >= at_surface)
-         if ((previous - at_surface)*(here - at_surface) < 0) &
-            share = (max(previous, here) - at_surface)/abs(here - previous)
-         if (gauge%measure == 'wetted') value = value + share*step
          previous = here
-         s = s + step
+         here = volume_at(model, p, near, gauge, from + k*step)
+         if (here < at_surface) cycle
+         place = from + step*(k - (here - at_surface)/(here - previous))
+         return
       end do
-   end function measure_gauge
+      place = to
+   end function first_wet
+
+   !> The sum is taken as linear between the points of the line.
+   pure real(dp) function wetted_length(model, p, near, gauge) result(length)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
+      type(gauge_t), intent(in) :: gauge
+      real(dp) :: step, previous, here
+      integer :: k, n
+
+      n = pieces(model, gauge)
+      step = (gauge%to - gauge%from)/n
+      length = 0
+      here = volume_at(model, p, near, gauge, gauge%from)
+      do k = 1, n
+         previous = here
+         here = volume_at(model, p, near, gauge, gauge%from + k*step)
+         if (min(previous, here) >= at_surface) then
+            length = length + step
+         else if (max(previous, here) > at_surface) then
+            length = length + step*(max(previous, here) - at_surface)/abs(here - previous)
+         end if
+      end do
+   end function wetted_length
 
    !> sum_j W V_j at a place on the line.
    pure real(dp) function volume_at(model, p, near, gauge, s) result(volume)
