@@ -22,7 +22,7 @@ program bench
 
    integer, parameter :: repeats = 5
    character(*), parameter :: phases(4) = [character(32) :: 'sort, images, neighbours', 'gradients, viscosity', &
-                                           'density diffusion, stage 1', 'stages 2 to 4']
+                                           'density diffusion, stage 1', 'later stages']
    type(settings_t) :: scene
    type(failure) :: problem
    real(dp) :: start_time

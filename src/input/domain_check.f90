@@ -10,8 +10,9 @@ module domain_check
 
    public :: check_domain
 
-   real(dp), parameter :: least_gap = 5.0_dp       ! walls [dx]: images reach 4 dx and a little more, and have no images
-   real(dp), parameter :: least_period = 10.0_dp   ! periodic sides [dx]: a particle meets no other twice
+   ! Apart from this much of dx, in diameters of the kernel: images of walls reach half of one and have no images; between
+   ! periodic sides a particle meets no other twice.
+   real(dp), parameter :: wall_diameters = 0.5_dp, wall_room = 1.0_dp, period_diameters = 1.0_dp, period_room = 2.0_dp
 
 contains
 
@@ -59,7 +60,7 @@ contains
       type(findings_t), intent(inout) :: notes
 
       character(choice_length) :: kinds_there(4)
-      real(dp) :: extent(2)
+      real(dp) :: extent(2), diameter
       integer :: axis
 
       if (.not. notes%clean('domain')) return
@@ -69,12 +70,15 @@ contains
                             //to_text(setup%domain%upper)//' must lie above and right of lower = '//to_text(setup%domain%lower))
          return
       end if
-      if (.not. notes%clean('scene')) return
+      if (.not. (notes%clean('scene') .and. notes%clean('model'))) return
       kinds_there = setup%side_kinds()
+      diameter = 4.0_dp*setup%model%smoothing_ratio
       do axis = 1, 2
          associate (pair => kinds_there(2*axis - 1:2*axis))
-            if (all(is_wall(pair))) call check_room(axis, extent(axis), least_gap, 'wall', document, setup, notes)
-            if (all(pair == 'periodic')) call check_room(axis, extent(axis), least_period, 'periodic side', document, setup, notes)
+            if (all(is_wall(pair))) call check_room(axis, extent(axis), wall_diameters*diameter + wall_room, &
+                                                    'wall', document, setup, notes)
+            if (all(pair == 'periodic')) call check_room(axis, extent(axis), period_diameters*diameter + period_room, &
+                                                       'periodic side', document, setup, notes)
          end associate
       end do
    end subroutine check_box

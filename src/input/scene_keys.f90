@@ -2,6 +2,7 @@
 !!
 !! A key's default is the initial value of its component in module `settings`.
 module scene_keys
+   use integrators, only: integrator_names
    use key_visitor, only: above, any_number, at_least, between, key_visitor_t
    use kinds, only: dp
    use settings, only: body_settings, choice_length, domain_settings, exact_settings, fluid_settings, force_settings, &
@@ -185,6 +186,8 @@ contains
       type(model_settings), intent(inout) :: model
 
       call keys%enter('model', 1)
+      call keys%real_key('smoothing_ratio', model%smoothing_ratio, between(1.2_dp, 4.0_dp), '-', &
+                         'Smoothing length over particle spacing, h/dx.')
       call keys%choice_key('diffusion', model%diffusion, [character(choice_length) :: 'constant', 'dynamic'], &
                            'How alpha and delta are chosen: the same everywhere, or from the rate of strain (eqs. 19-26).')
       call keys%only_with("diffusion = 'constant'", model%diffusion == 'constant')
@@ -223,8 +226,14 @@ contains
 
       call keys%enter('time', 1)
       call keys%real_key('cfl', time%cfl, above(0.0_dp), '-', &
-                         'Time step as a multiple of h/(c0 + h max|pi|), at most min(2.49, 0.294/delta); viscosity and the '// &
-                         'dynamic model may lower it.')
+                         'Time step as a multiple of h/(c0 + h max|pi|), but never longer than is stable: by default '// &
+                         'min(2.37, 0.294/delta, 0.5/alpha), alpha with viscosity.')
+      call keys%choice_key('beyond_limit', time%beyond_limit, [character(choice_length) :: 'reduce', 'refuse'], &
+                           'What to do with a cfl that is not stable: take the largest that is, with a warning, or end.')
+      call keys%choice_key('integrator', time%integrator, [character(choice_length) :: integrator_names], &
+                           "Runge-Kutta scheme; rk3 and rk2 are there to compare with (docs/error_vs_time.md).")
+      call keys%choice_key('diffusion', time%diffusion, [character(choice_length) :: 'frozen', 'every_stage'], &
+                           'When the diffusive terms are computed: once in a step, or in each of its stages.')
       call keys%real_key('end_time', time%end_time, above(0.0_dp), 's', 'Time at which the run ends.', required=.true.)
       call keys%integer_key('max_steps', time%max_steps, at_least(0.0_dp), '-', &
                             'Number of steps after which the run ends early. 0: no limit.')

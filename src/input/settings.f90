@@ -19,8 +19,6 @@ module settings
    !> The sides of the box in the order of `side_kinds`.
    character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
 
-   real(dp), parameter :: smoothing_ratio = 2.0_dp     ! h/dx, fixed by the scheme
-
    !> &scene: what it is called and how fine it is.
    type :: scene_settings
       character(title_length) :: title = ''
@@ -82,6 +80,7 @@ module settings
 
    !> &model: the diffusive terms.
    type :: model_settings
+      real(dp) :: smoothing_ratio = 2.0_dp   !! h/dx [-]
       character(choice_length) :: diffusion = 'constant'
       real(dp) :: alpha = 0.01_dp   !! of the viscous term [-]
       real(dp) :: delta = 0.1_dp    !! of the density diffusion [-]
@@ -94,6 +93,9 @@ module settings
    !> &time: the step and the end of the run.
    type :: time_settings
       real(dp) :: cfl = 1.5_dp             !! dt (c0 + h max|pi|)/h [-]
+      character(choice_length) :: beyond_limit = 'reduce'   !! what to do with a cfl that is not stable
+      character(choice_length) :: integrator = 'rk4'
+      character(choice_length) :: diffusion = 'frozen'      !! when its terms are computed
       real(dp) :: end_time = 0.0_dp        !! [s]
       integer :: max_steps = 0             !! 0: no limit
       real(dp) :: max_wall_time = 0.0_dp   !! 0: no limit [s of the clock on the wall]
@@ -158,11 +160,11 @@ contains
       particle_spacing = self%scene%reference_length/self%scene%resolution
    end function particle_spacing
 
-   !> Smoothing length h = 2 dx [m]. Source: Sec. 2 of the paper.
+   !> Smoothing length h [m], 2 dx by default. Source: Sec. 2 of the paper.
    pure real(dp) function smoothing_length(self)
       class(settings_t), intent(in) :: self
 
-      smoothing_length = smoothing_ratio*self%spacing()
+      smoothing_length = self%model%smoothing_ratio*self%spacing()
    end function smoothing_length
 
    !> The alpha that acts everywhere: the constant model's and the fluid's viscosity together [-].

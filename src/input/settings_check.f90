@@ -8,13 +8,14 @@ module settings_check
    use domain_check, only: check_domain
    use exact_check, only: check_exact
    use findings, only: findings_t, place_t
+   use integrators, only: new_integrator
    use kinds, only: dp
-   use linear_stability, only: cfl_acoustic, cfl_times_alpha, cfl_times_delta, largest_cfl
+   use linear_stability, only: new_stability, stability_t
    use namelist_document, only: document_t
    use output_check, only: check_output
    use scene_keys, only: largest_mach
    use settings, only: settings_t
-   use text, only: short, to_text
+   use text, only: quoted, short, to_text
    implicit none
    private
 
@@ -111,45 +112,83 @@ contains
       end associate
    end subroutine check_speed
 
-   !> The time step must be stable. The dynamic model and the viscosity lower it by themselves; the constant delta does not.
+   !> No wave may grow from step to step: a cfl beyond the limit will not be used, or is a mistake if the user wants that.
+   !!
+   !! The dynamic model's coefficients are known only in the run; it shortens its steps by itself.
    subroutine check_stability(document, setup, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
-      real(dp) :: limit
-      character(:), allocatable :: advice
+      type(stability_t) :: stability
+      real(dp) :: limit, delta
+      character(:), allocatable :: what
 
-      if (.not. (notes%clean('time') .and. notes%clean('model'))) return
-      associate (cfl => setup%time%cfl, delta => setup%model%delta)
-         if (setup%model%diffusion == 'dynamic') then
-            limit = cfl_acoustic
-            advice = ': at most '//to_text(limit)//'; lower cfl'
-            if (setup%model%limit*cfl > many_times*cfl_times_delta) call notes%warning( &
-               document%place_of('model', 1, 'limit'), '&model limit = '//to_text(setup%model%limit)//' may make steps ' &
-               //short(setup%model%limit*cfl/cfl_times_delta)//' times shorter: delta_i = '//to_text(setup%model%limit) &
-               //' is stable to cfl = '//rounded_down(cfl_times_delta/setup%model%limit)//' only')
-         else
-            limit = largest_cfl(delta, 0.0_dp)
-            advice = ' with delta = '//to_text(delta)//': at most '//rounded_down(limit)//' = min(2.49, 0.294/delta); lower cfl'
-            if (cfl <= cfl_acoustic) advice = advice//', or delta to '//rounded_down(cfl_times_delta/cfl)
+      if (.not. all([notes%clean('time'), notes%clean('model'), notes%clean('fluid'), notes%clean('scene')])) return
+      stability = stability_of(setup)
+      associate (cfl => setup%time%cfl, model => setup%model)
+         delta = constant_delta(setup)
+         limit = stability%largest_cfl(delta, 0.0_dp)
+         if (.not. limit > 0.0_dp) then
+            call notes%mistake(document%place_of('time', 1, 'integrator'), 'time', '&time integrator = ' &
+                               //quoted(setup%time%integrator)//' is unstable without a constant alpha or delta; use rk4')
+         else if (cfl > limit*(1.0_dp + slack)) then
+            what = 'the limit of '//trim(setup%time%integrator)//' is '//rounded_down(limit)
+            if (limit < stability%sound) what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &
+                                                //rounded_down(stability%times_delta)//'/delta'
+            if (cfl <= stability%sound) what = what//'; lower cfl, or delta to '//rounded_down(stability%times_delta/cfl)
+            call beyond_limit(setup, document%place_of('time', 1, 'cfl'), what, notes)
+         else if (model%diffusion == 'dynamic' .and. model%limit*cfl > many_times*stability%times_delta) then
+            call notes%warning(document%place_of('model', 1, 'limit'), '&model limit = '//to_text(model%limit) &
+                               //' may make steps '//short(model%limit*cfl/stability%times_delta)//' times shorter: delta_i = ' &
+                               //to_text(model%limit)//' is stable to cfl = ' &
+                               //rounded_down(stability%times_delta/model%limit)//' only')
          end if
-         if (cfl > limit*(1.0_dp + slack)) call notes%mistake(document%place_of('time', 1, 'cfl'), 'time', '&time cfl = ' &
-                                                              //to_text(cfl)//' is unstable'//advice)
       end associate
    end subroutine check_stability
 
-   !> Says when two viscosities act, and when the viscous limit dt <= 0.0625 h**2/nu will rule the time step.
+   !> A warning or a mistake, as the user wants it.
+   subroutine beyond_limit(setup, place, what, notes)
+      type(settings_t), intent(in) :: setup
+      type(place_t), intent(in) :: place      !! that is to be changed
+      character(*), intent(in) :: what        !! the limit, and what to do
+      type(findings_t), intent(inout) :: notes
+
+      if (setup%time%beyond_limit == 'refuse') then
+         call notes%mistake(place, 'time', '&time cfl = '//to_text(setup%time%cfl)//' is unstable: '//what)
+      else
+         call notes%warning(place, '&time cfl = '//to_text(setup%time%cfl)//' will not be used: '//what)
+      end if
+   end subroutine beyond_limit
+
+   ! What the time step of the scene may be. Its viscosity must be known.
+   type(stability_t) function stability_of(setup) result(stability)
+      type(settings_t), intent(in) :: setup
+
+      stability = new_stability(new_integrator(setup%time%integrator), setup%time%diffusion == 'frozen', &
+                                setup%model%smoothing_ratio, constant_delta(setup), setup%alpha_total())
+   end function stability_of
+
+   ! The delta that acts everywhere.
+   pure real(dp) function constant_delta(setup) result(delta)
+      type(settings_t), intent(in) :: setup
+
+      delta = 0.0_dp
+      if (setup%model%diffusion == 'constant') delta = setup%model%delta
+   end function constant_delta
+
+   !> Says when two viscosities act, and when the viscous limit will rule the time step.
    subroutine check_viscosity(document, setup, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
+      type(stability_t) :: stability
       type(place_t) :: place
-      real(dp) :: alpha, by_model, factor
+      real(dp) :: alpha, by_model, room, factor
       character(:), allocatable :: advice
 
-      if (.not. (notes%clean('time') .and. notes%clean('model') .and. notes%clean('fluid') .and. notes%clean('scene'))) return
+      if (.not. all([notes%clean('time'), notes%clean('model'), notes%clean('fluid'), notes%clean('scene')])) return
       alpha = setup%alpha_total()
       by_model = 0.0_dp
       if (setup%model%diffusion == 'constant') by_model = setup%model%alpha
@@ -159,20 +198,22 @@ contains
          call notes%warning(place, '&fluid viscosity and &model alpha = '//to_text(by_model)//' both act, alpha = ' &
                             //short(alpha)//' in all; set alpha = 0 for the viscosity alone')
       end if
-      associate (room => cfl_times_alpha/setup%time%cfl)
-         if (alpha <= room*(1.0_dp + slack)) return
-         if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
-            place = document%place_of('model', 1, 'alpha')
-            advice = 'lower alpha of &model to '//rounded_down(room)
-         else
-            factor = (alpha - by_model)/(room - by_model)
-            advice = 'not so with &scene resolution below '//rounded_down(setup%scene%resolution/factor) &
-                     //' or a sound speed above '//short(setup%fluid%sound_speed*factor)
-         end if
-         call notes%warning(place, '&time cfl = '//to_text(setup%time%cfl)//' will not be used: with alpha = '//short(alpha) &
-                            //', viscosity included, the viscous limit dt <= 0.0625 h**2/nu is that of cfl = ' &
-                            //rounded_down(cfl_times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice)
-      end associate
+      stability = stability_of(setup)
+      room = stability%times_alpha/min(setup%time%cfl, stability%sound)
+      if (.not. stability%sound > 0.0_dp .or. alpha <= room*(1.0_dp + slack)) return
+      if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
+         place = document%place_of('model', 1, 'alpha')
+         advice = 'lower alpha of &model to '//rounded_down(room)
+      else
+         factor = (alpha - by_model)/(room - by_model)
+         advice = 'not so with &scene resolution below '//rounded_down(setup%scene%resolution/factor) &
+                  //' or a sound speed above '//short(setup%fluid%sound_speed*factor)
+      end if
+      ! alpha = 8 nu/(c0 h): the limit of alpha is one of dt nu/h**2.
+      call beyond_limit(setup, place, 'with alpha = '//short(alpha)//', viscosity included, the viscous limit dt <= ' &
+                        //rounded_down(stability%times_alpha/8.0_dp)//' h**2/nu is that of cfl = ' &
+                        //rounded_down(stability%times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice, &
+                        notes)
    end subroutine check_viscosity
 
    !> A number rounded down to four digits, so that a limit can be copied from a message.
@@ -206,14 +247,14 @@ contains
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
-      real(dp) :: delta, cfl, per_step
+      type(stability_t) :: stability
+      real(dp) :: cfl, per_step
       character(:), allocatable :: advice
 
       if (.not. (notes%clean('time') .and. notes%clean('model') .and. notes%clean('fluid') .and. notes%clean('scene'))) return
       if (setup%time%max_steps > 0) return
-      delta = 0.0_dp
-      if (setup%model%diffusion == 'constant') delta = setup%model%delta
-      cfl = min(setup%time%cfl, largest_cfl(delta, setup%alpha_total()))
+      stability = stability_of(setup)
+      cfl = min(setup%time%cfl, stability%largest_cfl(constant_delta(setup), setup%alpha_total()))
       per_step = cfl*setup%smoothing_length()/setup%fluid%sound_speed
       if (setup%time%end_time <= most_steps*per_step) return
       advice = 'raise cfl, or lower end_time or the sound speed '//short(setup%fluid%sound_speed)

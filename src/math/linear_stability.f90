@@ -1,31 +1,69 @@
 !> Limits of the time step from the linear stability analysis of the scheme.
 !!
-!! Source: Runge-Kutta 4 with diffusion frozen over the step, on a square lattice with h = 2 dx and this kernel (ours;
-!! docs/equations.md). The Courant number is dt c0/h; alpha and delta are the coefficients of eq. 5.
+!! Source: the analysis of module `von_neumann` (ours; docs/equations.md). Rates of sound, density diffusion and viscosity on a
+!! lattice, times the step, must stay inside the part of the axes where the integrator is stable; terms that are frozen over the
+!! step are Euler's, stable to -2. The Courant number is dt c0/h; alpha and delta are the coefficients of eq. 5.
 module linear_stability
+   use integrators, only: integrator_t
    use kinds, only: dp
+   use von_neumann, only: fastest_rates, lattice_waves, stable_cfl, wave_t
    implicit none
    private
 
-   public :: largest_cfl
+   public :: stability_t, new_stability
 
-   real(dp), parameter, public :: cfl_acoustic = 2.49_dp       !! of sound waves without diffusion
-   real(dp), parameter, public :: cfl_times_delta = 0.294_dp   !! of the density diffusion: dt = 0.294 h**2/(delta h c0)
-   !> Of viscosity. With alpha = 8 nu/(c0 h) it is dt = 0.0625 h**2/nu: independent of the sound speed. The lattice's own limit is
-   !! 0.932; in disordered fluid with a free surface single particles run away from about 0.7 on (docs/equations.md).
-   real(dp), parameter, public :: cfl_times_alpha = 0.5_dp
+   integer, parameter :: waves_along = 24        ! wave numbers looked at, along an axis
+   real(dp), parameter :: frozen_negative = 2    ! Euler's limit
+   !> Near the limit of sound the diffusive terms take a little of it: up to 3 % (test `no_accepted_step_lets_a_wave_grow`).
+   real(dp), parameter :: sound_margin = 0.95_dp
+   !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on
+   !! (docs/equations.md).
+   real(dp), parameter :: viscous_margin = 0.536_dp
+
+   !> Largest stable Courant numbers.
+   type :: stability_t
+      real(dp) :: sound = 0         !! of sound waves
+      real(dp) :: times_delta = 0   !! times the largest delta_i
+      real(dp) :: times_alpha = 0   !! times the largest alpha_i, that of the viscosity included
+   contains
+      procedure :: largest_cfl
+   end type stability_t
 
 contains
 
-   !> Largest Courant number dt c0/h that is safe: min(2.49, 0.294/delta, 0.5/alpha).
-   elemental real(dp) function largest_cfl(delta, alpha)
+   !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.37, 0.294 and 0.5.
+   pure type(stability_t) function new_stability(integrator, frozen, ratio, delta, alpha) result(self)
+      type(integrator_t), intent(in) :: integrator
+      logical, intent(in) :: frozen   !! diffusive terms are held over the step
+      real(dp), intent(in) :: ratio   !! h/dx
+      real(dp), intent(in) :: delta   !! that acts at least everywhere: rk2 lives by it
+      real(dp), intent(in) :: alpha   !! the same
+      type(wave_t) :: waves(waves_along*(waves_along + 3)/2)
+      real(dp) :: rates(3), negative
+
+      waves = lattice_waves(ratio, waves_along)
+      rates = fastest_rates(waves)
+      negative = integrator%negative
+      if (frozen) negative = frozen_negative
+      if (integrator%imaginary > 0) then
+         self%sound = sound_margin*integrator%imaginary/rates(1)
+      else
+         self%sound = sound_margin*stable_cfl(waves, integrator, frozen, delta, alpha)
+      end if
+      self%times_delta = negative/rates(2)
+      self%times_alpha = viscous_margin*negative/rates(3)
+   end function new_stability
+
+   !> Largest Courant number dt c0/h that is safe: min(sound, times_delta/delta, times_alpha/alpha).
+   elemental real(dp) function largest_cfl(self, delta, alpha)
+      class(stability_t), intent(in) :: self
       real(dp), intent(in) :: delta   !! largest delta_i [-]
       real(dp), intent(in) :: alpha   !! largest alpha_i, that of the viscosity included [-]
 
       ! By products: a coefficient may be 0.
-      largest_cfl = cfl_acoustic
-      if (delta*largest_cfl > cfl_times_delta) largest_cfl = cfl_times_delta/delta
-      if (alpha*largest_cfl > cfl_times_alpha) largest_cfl = cfl_times_alpha/alpha
+      largest_cfl = self%sound
+      if (delta*largest_cfl > self%times_delta) largest_cfl = self%times_delta/delta
+      if (alpha*largest_cfl > self%times_alpha) largest_cfl = self%times_alpha/alpha
    end function largest_cfl
 
 end module linear_stability

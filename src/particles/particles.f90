@@ -8,7 +8,7 @@ module particles
    implicit none
    private
 
-   public :: state_t, features_t, particles_t, allocate_particles, reserve_slots, bytes_per_slot
+   public :: state_t, features_t, particles_t, allocate_particles, reserve_slots, swap_states, bytes_per_slot
 
    real(dp), parameter, public :: far_away = 1.0e30_dp   !! where dummies are, in any unit of length
 
@@ -103,6 +103,27 @@ contains
       call grow_integer(self%sorted_id, capacity)
       self%capacity = capacity
    end subroutine reserve_slots
+
+   !> Exchanges two states without copying them.
+   pure subroutine swap_states(one, other)
+      type(state_t), intent(inout) :: one, other
+
+      call swap(one%x, other%x)
+      call swap(one%y, other%y)
+      call swap(one%u, other%u)
+      call swap(one%v, other%v)
+      call swap(one%s, other%s)
+      call swap(one%w, other%w)
+   end subroutine swap_states
+
+   pure subroutine swap(one, other)
+      real(dp), allocatable, intent(inout) :: one(:), other(:)
+      real(dp), allocatable :: between(:)
+
+      call move_alloc(one, between)
+      call move_alloc(other, one)
+      call move_alloc(between, other)
+   end subroutine swap
 
    !> Bytes that a slot takes in the arrays above.
    pure integer function bytes_per_slot(features)

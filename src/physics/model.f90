@@ -1,9 +1,10 @@
 !> The constants of the model in paper symbols, worked out once from the input.
 module model
    use images, only: walls_t
+   use integrators, only: integrator_t
    use kernel, only: kernel_t
    use kinds, only: dp
-   use linear_stability, only: largest_cfl
+   use linear_stability, only: stability_t
    implicit none
    private
 
@@ -28,6 +29,9 @@ module model
       real(dp) :: limit = 0           !! of alpha_i and delta_i
       real(dp) :: largest_strain = huge(1.0_dp)   !! ||D|| is clipped here
       real(dp) :: viscosity = 0       !! real dynamic viscosity, for Q_omega (eq. 29)
+      type(integrator_t) :: integrator
+      logical :: frozen = .true.      !! diffusive terms are held over the step
+      type(stability_t) :: stability  !! what the step may be with it
       real(dp) :: cfl = 0             !! Courant number of eq. 8
    contains
       procedure :: step_limit
@@ -47,7 +51,8 @@ contains
       real(dp), intent(in) :: largest_alpha   !! largest alpha_i + alpha
       real(dp), intent(in) :: largest_delta   !! largest delta_i, or delta
 
-      step_limit = min(self%advective_limit(largest_pi), largest_cfl(largest_delta, largest_alpha)*self%kernel%h/self%c0)
+      step_limit = min(self%advective_limit(largest_pi), &
+                       self%stability%largest_cfl(largest_delta, largest_alpha)*self%kernel%h/self%c0)
    end function step_limit
 
    !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8.

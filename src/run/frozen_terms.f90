@@ -4,7 +4,6 @@
 module frozen_terms
    use diffusion, only: freeze_density_diffusion, freeze_gradient, freeze_viscosity
    use diffusion_sums, only: sum_diffusion
-   use dissipation_sums, only: sum_dissipation
    use eddy, only: freeze_coefficients, freeze_eddy_terms
    use eddy_sums, only: eddy_sums_t, sum_eddy
    use flow, only: as_flow_sums, flow_rates, rates_t
@@ -116,7 +115,6 @@ contains
          call freeze_density_diffusion(model, neighbour_gradient, p, i0)
       end if
       if (p%features%no_slip) call add_friction(model, near%ranges(c), p, i0, block%wall_power)
-      if (p%features%dissipation) call sum_dissipation(model, near%ranges(c), p, i0, p%dissipating(i0 + 1:i0 + nl))
    end subroutine complete_frozen_terms
 
 end module frozen_terms

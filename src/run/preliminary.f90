@@ -30,7 +30,6 @@ module preliminary
    real(dp), parameter :: coarse_share(2) = [0.15_dp, 0.25_dp]
    real(dp), parameter :: largest_cost = 0.02_dp       !! of the run, that is not mentioned
    real(dp), parameter :: least_across = 4             !! particles across the thinnest body
-   real(dp), parameter :: least_between = 10           !! particles between opposite sides
    real(dp), parameter :: particle_share = 0.995_dp    !! particles that are not faster than U_ref,
    real(dp), parameter :: time_share = 0.99_dp         !! and how much of the time
    !> What coarse particles do not see: they stand half a spacing from walls, where pressure is highest.
@@ -98,6 +97,7 @@ contains
       type(settings_t), intent(in) :: scene
       integer, intent(in) :: pass   !! 1 or 2
       real(dp) :: least, extent(2)
+      real(dp) :: least_between   ! spacings between opposite sides
       integer :: k
 
       coarse = scene
@@ -108,6 +108,7 @@ contains
             least = max(least, least_across*d/minval(scene%bodies(k)%upper - scene%bodies(k)%lower))
          end do
          extent = domain%upper - domain%lower
+         least_between = 4*scene%model%smoothing_ratio + 2
          if (closed(domain%left, domain%right)) least = max(least, least_between*d/extent(1))
          if (closed(domain%bottom, domain%top)) least = max(least, least_between*d/extent(2))
          coarse%scene%resolution = min(max(coarse_share(pass)*scene%scene%resolution, least), scene%scene%resolution)

@@ -1,9 +1,10 @@
-!> Fourth-order Runge-Kutta for one cluster: from a stage's rates to the next stage's state, or to the end of the step.
+!> Runge-Kutta for one cluster: from a stage's rates to the next stage's state, or to the end of the step.
 !!
 !! Source: sec. 2 of the paper; the works are summed with the stage states and the weights of the scheme (docs/equations.md).
 module runge_kutta
    use crossing, only: outside, reflect, wrap
    use flow, only: rates_t
+   use integrators, only: most_stages
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
@@ -13,9 +14,7 @@ module runge_kutta
 
    public :: block_t, update_cluster
 
-   real(dp), parameter :: stage_ahead(4) = [0.5_dp, 0.5_dp, 1.0_dp, 0.0_dp]
-   integer, parameter, public :: stage_state(4) = [0, 1, 2, 1]   !! which of p%stage holds a stage's state; 0: base
-   real(dp), parameter :: stage_weight(4) = [1.0_dp, 2.0_dp, 2.0_dp, 1.0_dp]/6
+   integer, parameter, public :: stage_state(most_stages) = [0, 1, 2, 1]   !! which of p%stage holds a stage's state; 0: base
 
    !> A cluster's velocity, density and volume at a stage.
    type :: lanes_t
@@ -45,16 +44,16 @@ contains
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0             !! slot before the cluster's first
-      integer, intent(in) :: stage          !! 1 to 4
+      integer, intent(in) :: stage          !! of the model's integrator
       real(dp), intent(in) :: dt
       type(rates_t), intent(in) :: rates    !! inviscid, at the stage's state
       type(block_t), intent(inout) :: sums
       type(rates_t) :: full
       type(lanes_t) :: now
       real(dp), dimension(nl) :: pressure
-      real(dp) :: weight
+      real(dp) :: weight, ahead
 
-      weight = stage_weight(stage)*dt
+      weight = model%integrator%weight(stage)*dt
       if (stage == 1) then
          now = lanes_of(p%base, i0)
       else
@@ -78,12 +77,13 @@ contains
          sums%work(3) = sums%work(3) + weight*sum(m*(now%u*rates%u + now%v*rates%v) + pressure*rates%s)
       end associate
       call add_to_next(p, i0, stage, weight, now, full)
-      if (stage == 4) then
+      if (stage == model%integrator%stages) then
          call finish_cluster(model, p, i0, sums)
       else
-         call form_stage(model, p, i0, stage + 1, stage_ahead(stage)*dt, now, full)
+         ahead = model%integrator%ahead(stage)*dt
+         call form_stage(model, p, i0, stage + 1, ahead, now, full)
          associate (u => p%base%u(i0 + 1:i0 + nl), v => p%base%v(i0 + 1:i0 + nl))
-            sums%stray = max(sums%stray, stage_ahead(stage)*dt*sqrt(maxval((now%u - u)**2 + (now%v - v)**2)))
+            sums%stray = max(sums%stray, ahead*sqrt(maxval((now%u - u)**2 + (now%v - v)**2)))
          end associate
       end if
    end subroutine update_cluster

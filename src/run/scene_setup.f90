@@ -4,8 +4,10 @@ module scene_setup
    use exact_solution, only: exact_solution_t, new_exact_solution
    use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use initial_pressure, only: pressure_at
+   use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp
+   use linear_stability, only: new_stability
    use model, only: model_t
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
@@ -30,7 +32,6 @@ contains
       model%central_rate = scene%force%central_rate
       model%centre = scene%force%centre
       model%viscosity = scene%fluid%viscosity
-      model%cfl = scene%time%cfl
       model%walls = set_up_walls(scene)
       model%dynamic = scene%model%diffusion == 'dynamic'
       if (model%dynamic) then
@@ -38,6 +39,11 @@ contains
       else
          model%delta = scene%model%delta
       end if
+      model%integrator = new_integrator(scene%time%integrator)
+      model%frozen = scene%time%diffusion == 'frozen'
+      model%stability = new_stability(model%integrator, model%frozen, scene%model%smoothing_ratio, model%delta, model%alpha)
+      ! Eq. 8 shortens steps by a factor: it must start from what is stable.
+      model%cfl = min(scene%time%cfl, model%stability%sound)
    end function set_up_model
 
    ! Eqs. 19-26: nu_T = (C_S l)**2 ||D||, alpha_i = K nu_T/(c0 h), nu_delta = (C_delta l)**2 ||D||,

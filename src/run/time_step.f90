@@ -1,9 +1,10 @@
-!> One time step: fourth-order Runge-Kutta with the diffusive terms frozen at the first stage.
+!> One time step: a Runge-Kutta scheme, as in the paper of fourth order with the diffusive terms frozen at the first stage.
 !!
 !! Source: eqs. 5-8 and 10-13 of the paper; the energies that the diffusive terms and the walls take are summed
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
+   use dissipation_sums, only: sum_dissipation
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
@@ -12,7 +13,7 @@ module time_step
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: list_ranges, neighbours_t, sort_particles
-   use particles, only: particles_t
+   use particles, only: particles_t, swap_states
    use runge_kutta, only: block_t, stage_state, update_cluster
    use timers, only: timers_t
    implicit none
@@ -119,7 +120,9 @@ contains
 
       do
          allocate (blocks((near%n_clusters + block_clusters - 1)/block_clusters))
-         call first_sums(model, p, near, blocks, timers)
+         call timers%start(phase_gradients)
+         call first_sums(model, p, near, blocks)
+         call timers%stop(phase_gradients)
          run%dt = min(stable_step(model, blocks), last_time - run%time)
          if (run%dt - near%tau <= near%image_travel) then
             call stages(model, p, near, run%dt, blocks, timers, strayed)
@@ -164,15 +167,13 @@ contains
 
    ! L, grad rho and the first stage's rates, which `next` keeps until they are used; of the frozen terms what needs no
    ! gradient and no coefficient of a neighbour.
-   subroutine first_sums(model, p, near, blocks, timers)
+   subroutine first_sums(model, p, near, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
       type(block_t), intent(inout) :: blocks(:)
-      type(timers_t), intent(inout) :: timers
       integer :: b, c
 
-      call timers%start(phase_gradients)
       !$omp parallel do default(none) shared(model, p, near, blocks) private(c) schedule(dynamic)
       do b = 1, size(blocks)
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
@@ -183,10 +184,9 @@ contains
       if (model%dynamic .or. model%delta > 0) &
          call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
       if (model%dynamic) call fill_image_copies(near%images, p%n_own, p%alpha, p%delta)
-      call timers%stop(phase_gradients)
    end subroutine first_sums
 
-   ! The four stages; `strayed` if the neighbour ranges turned out too small and the result is void.
+   ! The stages; `strayed` if the neighbour ranges turned out too small and the result is void.
    subroutine stages(model, p, near, dt, blocks, timers, strayed)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -205,10 +205,15 @@ contains
       end if
       call timers%start(phase_diffusion)
       call first_stage(model, p, near, dt, blocks)
+      if (.not. model%frozen) blocks%wall_power = model%integrator%weight(1)*blocks%wall_power
       call timers%stop(phase_diffusion)
       call timers%start(phase_stages)
-      do stage = 2, 4
-         call later_stage(model, p, near, stage, dt, blocks)
+      do stage = 2, model%integrator%stages
+         if (model%frozen) then
+            call later_stage(model, p, near, stage, dt, blocks)
+         else
+            call whole_stage(model, p, near, stage, dt, blocks)
+         end if
       end do
       call timers%stop(phase_stages)
       near%stray = maxval(blocks%stray)
@@ -232,6 +237,7 @@ contains
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
             i0 = (c - 1)*nl
             call complete_frozen_terms(model, p, near, c, blocks(b))
+            if (p%features%dissipation) call sum_dissipation(model, near%ranges(c), p, i0, p%dissipating(i0 + 1:i0 + nl))
             rates = rates_t(p%next%u(i0 + 1:i0 + nl), p%next%v(i0 + 1:i0 + nl), p%next%s(i0 + 1:i0 + nl))
             call update_cluster(model, p, i0, 1, dt, rates, blocks(b))
          end do
@@ -244,7 +250,7 @@ contains
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: stage     !! 2 to 4
+      integer, intent(in) :: stage     !! from 2 on
       real(dp), intent(in) :: dt
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
@@ -265,6 +271,49 @@ contains
       end do
       !$omp end parallel do
    end subroutine later_stage
+
+   ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them; the state that is
+   ! formed next has room for the rates until then.
+   subroutine whole_stage(model, p, near, stage, dt, blocks)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      integer, intent(in) :: stage     !! from 2 on
+      real(dp), intent(in) :: dt
+      type(block_t), intent(inout) :: blocks(:)
+      type(block_t) :: of_stage(size(blocks))
+      type(rates_t) :: rates
+      integer :: b, c, i0, now, spare
+
+      now = stage_state(stage)
+      spare = 3 - now
+      call fill_images(near%images, model%walls, p%n_own, p%stage(now))
+      call swap_states(p%base, p%stage(now))
+      call swap_states(p%next, p%stage(spare))
+      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+      call first_sums(model, p, near, of_stage)
+      !$omp parallel do default(none) shared(model, p, near, of_stage) private(c) schedule(dynamic)
+      do b = 1, size(of_stage)
+         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
+            call complete_frozen_terms(model, p, near, c, of_stage(b))
+         end do
+      end do
+      !$omp end parallel do
+      call swap_states(p%base, p%stage(now))
+      call swap_states(p%next, p%stage(spare))
+      blocks%wall_power = blocks%wall_power + model%integrator%weight(stage)*of_stage%wall_power
+      !$omp parallel do default(none) shared(model, p, near, stage, spare, dt, blocks) private(c, i0, rates) schedule(dynamic)
+      do b = 1, size(blocks)
+         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
+            i0 = (c - 1)*nl
+            associate (kept => p%stage(spare))
+               rates = rates_t(kept%u(i0 + 1:i0 + nl), kept%v(i0 + 1:i0 + nl), kept%s(i0 + 1:i0 + nl))
+            end associate
+            call update_cluster(model, p, i0, stage, dt, rates, blocks(b))
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine whole_stage
 
    ! Sums over the blocks in their order, so that the result does not depend on the number of threads.
    subroutine collect(model, run, last_time, blocks)
