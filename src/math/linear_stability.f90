@@ -18,7 +18,7 @@ module linear_stability
    real(dp), parameter :: sound_margin = 0.95_dp
    !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on
    !! (docs/equations.md).
-   real(dp), parameter :: viscous_margin = 0.536_dp
+   real(dp), parameter :: viscous_margin = 0.5365_dp
 
    !> Largest stable Courant numbers.
    type :: stability_t
@@ -47,7 +47,7 @@ contains
       if (frozen) negative = frozen_negative
       if (integrator%imaginary > 0) then
          self%sound = sound_margin*integrator%imaginary/rates(1)
-      else
+      else if (delta > 0 .or. alpha > 0) then
          self%sound = sound_margin*stable_cfl(waves, integrator, frozen, delta, alpha)
       end if
       self%times_delta = negative/rates(2)

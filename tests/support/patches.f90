@@ -1,8 +1,10 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
    use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
+   use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp, i8
+   use linear_stability, only: stability_t
    use model, only: model_t
    use neighbours, only: list_ranges, neighbours_t, sort_particles
    use particles, only: allocate_particles, features_t, particles_t
@@ -54,6 +56,8 @@ contains
       model%alpha = 0.03_dp
       model%delta = 0.1_dp
       model%cfl = 1.5_dp
+      model%integrator = new_integrator('rk4')
+      model%stability = stability_t(sound=2.37_dp, times_delta=0.294_dp, times_alpha=0.5_dp)
    end function open_model
 
    !> The same with gravity, a floor and walls left and right, and hydrostatic images.
