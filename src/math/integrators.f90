@@ -1,7 +1,7 @@
 !> Explicit Runge-Kutta schemes whose stages each build on the rates of the stage before alone.
 !!
-!! Stage k+1 is at y + a_k dt f_k, the step ends at y + dt sum_k b_k f_k. On a linear problem dy/dt = T y a step multiplies y by
-!! sum_m c_m (T dt)**m; with the diffusive terms frozen at the first stage by sum_m c_m dt**m A**(m-1) (A + B), B being what is frozen.
+!! Stage k+1 is at y + a_k dt f_k, the step ends at y + dt sum_k b_k f_k. On a linear problem dy/dt = T y a step multiplies y
+!! by 1 + sum_m c_m (T dt)**m; with a part B of T frozen at the first stage by 1 + sum_m c_m dt**m A**(m-1) (A + B), A = T - B.
 module integrators
    use kinds, only: dp
    implicit none
