@@ -223,7 +223,7 @@ contains
 
       call keys%enter('time', 1)
       call keys%real_key('cfl', time%cfl, above(0.0_dp), '-', &
-                         'Time step as a multiple of h/(c0 + h max|pi|), at most min(2.49, 0.294/delta); viscosity and the '// &
+                         'Time step as a multiple of h/(c0 + h max|pi|), at most min(2.49, 0.2/delta); viscosity and the '// &
                          'dynamic model may lower it.')
       call keys%real_key('end_time', time%end_time, above(0.0_dp), 's', 'Time at which the run ends.', required=.true.)
       call keys%integer_key('max_steps', time%max_steps, at_least(0.0_dp), '-', &

@@ -131,7 +131,7 @@ contains
                //' is stable to cfl = '//rounded_down(cfl_times_delta/setup%model%limit)//' only')
          else
             limit = largest_cfl(delta, 0.0_dp)
-            advice = ' with delta = '//to_text(delta)//': at most '//rounded_down(limit)//' = min(2.49, 0.294/delta); lower cfl'
+            advice = ' with delta = '//to_text(delta)//': at most '//rounded_down(limit)//' = min(2.49, 0.2/delta); lower cfl'
             if (cfl <= cfl_acoustic) advice = advice//', or delta to '//rounded_down(cfl_times_delta/cfl)
          end if
          if (cfl > limit*(1.0_dp + slack)) call notes%mistake(document%place_of('time', 1, 'cfl'), 'time', '&time cfl = ' &
