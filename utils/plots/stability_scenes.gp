@@ -14,8 +14,9 @@ colour(class) = class eq 'stable' ? 0x9fd5c1 : class eq 'noisy' ? 0xf5d58c : cla
 
 set terminal pngcairo size 1100,120 + 27*rows font 'DejaVu Sans,11'
 set output dir.'/stability_scenes.png'
-set title 'Each cell is a run, with the value that was varied' offset 0,1.2
-set key at graph 0.5,1.005 center bottom horizontal samplen 1 width 2
+set title 'Each cell is a run, with the value that was varied' font 'DejaVu Sans,12' offset 0,1.6
+set tmargin 5
+set key at graph 0.5,1.005 center bottom horizontal Left reverse samplen 1 width 1
 unset grid
 set border 0
 unset xtics
