@@ -12,6 +12,10 @@ module kernel
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
+   !> Distance in h below which a pair counts as this far apart in max |pi_ij|. Nothing keeps particles from meeting, because the
+   !! kernel's gradient is 0 at r = 0; with eq. 8 as printed, steps would shrink to nothing before they do.
+   real(dp), parameter, public :: closest = 0.01_dp
+
    !> A kernel of given smoothing length with its constants worked out.
    type :: kernel_t
       real(dp) :: h                  !! smoothing length

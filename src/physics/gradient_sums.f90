@@ -5,7 +5,7 @@
 !! gradient of density, the viscous sum and the largest |pi_ij|.
 module gradient_sums
    use kinds, only: dp
-   use kernel, only: kernel_t, root
+   use kernel, only: closest, kernel_t, root
    use lanes, only: nl
    use particles, only: state_t
    use strips, only: ranges_t
@@ -27,7 +27,7 @@ module gradient_sums
       real(dp) :: kernel_y(nl)
       real(dp) :: viscous_x(nl)    !! sum_j pi_ij x_ji t**3 V_j
       real(dp) :: viscous_y(nl)
-      real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, the particle's own images left out
+      real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
    end type gradient_sums_t
 
 contains
@@ -52,7 +52,7 @@ contains
       type(gradient_sums_t), intent(out) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
       real(dp), dimension(nl) :: div, mxx, mxy, myy, bx, by, b0, kx, ky, fx, fy, pi_max
-      real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du_dr, pi_ij, other
+      real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du_dr, pi_ij, other, most
       integer :: k, j, l
 
       xi = x(i0 + 1:i0 + nl)
@@ -73,6 +73,7 @@ contains
       fx = 0
       fy = 0
       pi_max = 0
+      most = (2*inverse_support/closest)**2
       do k = 1, n_ranges
          do j = first(k), last(k)
             !$omp simd private(dx, dy, r, inverse, t, g, gx, gy, ds, du_dr, pi_ij, other)
@@ -99,7 +100,7 @@ contains
                fx(l) = fx(l) + pi_ij*gx
                fy(l) = fy(l) + pi_ij*gy
                other = min(t, abs(owner(j) - oi(l)))
-               pi_max(l) = max(pi_max(l), merge(abs(pi_ij), 0.0_dp, other > 0))
+               pi_max(l) = max(pi_max(l), merge(abs(du_dr)*min(inverse*inverse, most), 0.0_dp, other > 0))
             end do
          end do
       end do

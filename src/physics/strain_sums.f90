@@ -5,7 +5,7 @@
 !! viscous sum, whose coefficients are not known yet.
 module strain_sums
    use kinds, only: dp
-   use kernel, only: kernel_t, root
+   use kernel, only: closest, kernel_t, root
    use lanes, only: nl
    use particles, only: state_t
    use strips, only: ranges_t
@@ -27,7 +27,7 @@ module strain_sums
       real(dp) :: density_y(nl)
       real(dp) :: kernel_x(nl)     !! sum_j x_ji t**3 V_j: the sum of grad W
       real(dp) :: kernel_y(nl)
-      real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, the particle's own images left out
+      real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
    end type strain_sums_t
 
 contains
@@ -52,7 +52,7 @@ contains
       type(strain_sums_t), intent(out) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
       real(dp), dimension(nl) :: ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, pi_max
-      real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other
+      real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other, most
       integer :: k, j, l
 
       xi = x(i0 + 1:i0 + nl)
@@ -73,6 +73,7 @@ contains
       kx = 0
       ky = 0
       pi_max = 0
+      most = (2*inverse_support/closest)**2
       do k = 1, n_ranges
          do j = first(k), last(k)
             !$omp simd private(dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other)
@@ -98,7 +99,7 @@ contains
                uy(l) = uy(l) + du*gy
                vx(l) = vx(l) + dv*gx
                vy(l) = vy(l) + dv*gy
-               pi_ij = (du*dx + dv*dy)*(inverse*inverse)
+               pi_ij = (du*dx + dv*dy)*min(inverse*inverse, most)
                ! 1 for another particle within the support, else 0, without a branch: with one, nothing here is vectorised.
                other = min(1.0_dp, huge(1.0_dp)*min(t, abs(owner(j) - oi(l))))
                pi_max(l) = max(pi_max(l), other*abs(pi_ij))

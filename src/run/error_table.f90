@@ -76,6 +76,9 @@ contains
 
       if (.not. self%in_use) return
       if (.not. (last .or. self%when%is_due(step, time, time_before))) return
+      if (self%rows > 0) then
+         if (time <= self%times(self%rows)) return   ! recorded before it turned out to be the last
+      end if
       call measure_errors(self%errors, model, p, time, values)
       call self%table%row([time, time/self%scale%unit, values], problem)
       if (self%rows == size(self%times)) then

@@ -40,7 +40,8 @@ module recorder
       type(snapshot_head) :: head
       type(time_scale_t) :: scale
       type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks for them
-      real(dp) :: time_before = 0      !! of the step before
+      real(dp) :: times(2) = 0         !! of the step before and of the last one recorded,
+      integer :: step = -1             !! and its number
    contains
       procedure :: start
       procedure :: record
@@ -154,21 +155,26 @@ contains
       type(result_directory_t), intent(in) :: directory
       logical, intent(in) :: last            !! the run ends here
       type(failure), intent(inout) :: problem
+      logical :: again   ! a state that was recorded before it turned out to be the last
 
-      if (last .or. due(self%when_energy)) call record_energies(self, model, p, near, run, problem)
+      again = run%step == self%step
+      if (.not. again) self%times = [self%times(2), run%time]
+      self%step = run%step
+      if (due(self%when_energy) .or. (last .and. self%when_energy%is_never())) &
+         call record_energies(self, model, p, near, run, problem)
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
       end if
-      call self%errors%record(model, p, run%step, run%time, self%time_before, last, problem)
+      call self%errors%record(model, p, run%step, run%time, self%times(1), last, problem)
       if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, near, run, directory, problem)
-      self%time_before = run%time
 
    contains
 
       logical function due(when)
          type(cadence_t), intent(in) :: when
 
-         due = when%is_due(run%step, run%time, self%time_before) .or. (last .and. .not. when%is_never())
+         due = when%is_due(run%step, run%time, self%times(1))
+         if (last) due = .not. (when%is_never() .or. (again .and. due))
       end function due
 
    end subroutine record

@@ -16,6 +16,8 @@ module runge_kutta
 
    integer, parameter, public :: stage_state(most_stages) = [0, 1, 2, 1]   !! which of p%stage holds a stage's state; 0: base
 
+   real(dp), parameter, public :: fastest = 10   !! in c0; a particle that is faster has left the range
+
    !> A cluster's velocity, density and volume at a stage.
    type :: lanes_t
       real(dp) :: u(nl), v(nl), s(nl), w(nl)
@@ -189,7 +191,7 @@ contains
          sums%pressure = max(sums%pressure, maxval(pressure))
          sums%largest_s = max(sums%largest_s, maxval(abs(s)))
          ! Written so that NaN fails too. Collapsing cavities reach half the sound speed and density for a moment.
-         out_of_range = .not. (speed_2 < 100*model%c0**2 .and. s > -0.9_dp*model%rho0 .and. s < 4*model%rho0)
+         out_of_range = .not. (speed_2 < (fastest*model%c0)**2 .and. s > -0.9_dp*model%rho0 .and. s < 4*model%rho0)
          if (any(out_of_range)) sums%lost_slot = i0 + findloc(out_of_range, .true., dim=1)
       end associate
    end subroutine finish_cluster

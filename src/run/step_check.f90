@@ -1,9 +1,11 @@
 !> Whether a run can go on from the result of a step.
 module step_check
    use errors, only: exit_numerics, failure
+   use images, only: bottom_wall
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
+   use runge_kutta, only: fastest
    use text, only: short, to_text
    use time_step, only: step_t
    implicit none
@@ -15,7 +17,7 @@ module step_check
 
 contains
 
-   !> Looks at the state in `next` before it is taken over.
+   !> Looks at the state in `next` before it is taken over. A message says what, which particle, where and when.
    subroutine check_step(model, p, run, end_time, problem)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
@@ -23,15 +25,19 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      if (run%scattered) then
-         call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank after step ' &
-                            //to_text(run%step)//': close the open side it left by')
-         return
-      end if
-      if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
-      if (run%dt < least_step_share*model%longest_step() .and. run%time < end_time) &
-         call problem%raise(exit_numerics, 'step '//to_text(run%step)//' at t = '//short(run%time)//' is only '//short(run%dt) &
-                            //' long: two particles close on each other too fast; a smaller cfl may help')
+      associate (own => p%id(1:p%n_own) > 0, next => p%next, floor => model%walls%at(bottom_wall))
+         if (run%scattered) then
+            call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank after step ' &
+                               //moment(run)//': '//particle(p, maxloc(abs(next%y(1:p%n_own) - floor), 1, own)) &
+                               //'; close the open side it left by')
+            return
+         end if
+         if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+         ! Written so that NaN fails too.
+         if (.not. run%dt >= least_step_share*model%longest_step() .and. run%time < end_time) &
+            call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
+                               //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)))
+      end associate
    end subroutine check_step
 
    subroutine explain_loss(model, p, run, problem)
@@ -39,14 +45,32 @@ contains
       type(particles_t), intent(in) :: p
       type(step_t), intent(in) :: run
       type(failure), intent(inout) :: problem
+      character(7) :: what
 
-      associate (i => run%lost_slot)
-         call problem%raise(exit_numerics, &
-            'the solution left its range in step '//to_text(run%step)//' at t = '//to_text(run%time)//': particle ' &
-            //to_text(p%id(i))//', before the step at ('//to_text(p%base%x(i))//', '//to_text(p%base%y(i))//'), has speed/c0 ' &
-            //to_text(norm2([p%next%u(i), p%next%v(i)])/model%c0)//' and (rho - rho0)/rho0 '//to_text(p%next%s(i)/model%rho0) &
-            //'; a smaller cfl or a larger sound_speed may help')
+      associate (i => run%lost_slot, next => p%next)
+         what = 'density'
+         if (.not. norm2([next%u(i), next%v(i)]) < fastest*model%c0) what = 'speed'
+         call problem%raise(exit_numerics, 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i) &
+                            //', has speed/c0 '//to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 ' &
+                            //to_text(next%s(i)/model%rho0)//'; a smaller cfl or a larger sound_speed may help')
       end associate
    end subroutine explain_loss
+
+   ! 'N at t = T', for messages.
+   pure function moment(run) result(words)
+      type(step_t), intent(in) :: run
+      character(:), allocatable :: words
+
+      words = to_text(run%step)//' at t = '//to_text(run%time)
+   end function moment
+
+   ! 'particle N, before the step at (X, Y)'.
+   pure function particle(p, i) result(words)
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: i   !! slot
+      character(:), allocatable :: words
+
+      words = 'particle '//to_text(p%id(i))//', before the step at ('//to_text(p%base%x(i))//', '//to_text(p%base%y(i))//')'
+   end function particle
 
 end module step_check
