@@ -8,7 +8,8 @@ module report
    use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t
    use omp_lib, only: omp_get_max_threads
-   use particles, only: bytes_per_slot
+   use neighbours, only: neighbours_t
+   use particles, only: bytes_per_slot, particles_t
    use progress, only: duration_text
    use recorder, only: recorder_t
    use run_log, only: log_t
@@ -76,7 +77,8 @@ contains
       lines(6) = 'leaves out    '//unused(scene, model)
       lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(cost%dt*model%c0/model%kernel%h)//'), about ' &
                  //short(anint(cost%steps))//' steps to t = '//short(scene%time%end_time)
-      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
+      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB, '//short(anint(cost%bytes/cost%particles)) &
+                 //' bytes a particle'
       lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
                  //' (at '//short(cost%ns)//' ns per particle-step and core)'
       lines(10) = 'output        '//output_text(scene)
@@ -247,11 +249,12 @@ contains
    end function works_text
 
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, reason, particles, run, seconds, recorder, problem)
+   subroutine write_summary_file(path, status, reason, p, near, run, seconds, recorder, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
       character(*), intent(in) :: reason      !! why it failed; '' if it did not
-      integer, intent(in) :: particles
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       real(dp), intent(in) :: seconds
       type(recorder_t), intent(in) :: recorder
@@ -259,10 +262,11 @@ contains
       type(summary_t) :: file
       real(dp) :: rate
 
-      rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
+      rate = real(p%n, dp)*run%step/max(seconds, tiny(1.0_dp))
       call file%add('status', status)
       if (reason /= '') call file%add('reason', reason)
-      call file%add('particles', particles)
+      call file%add('particles', p%n)
+      call file%add('bytes_per_particle', real(p%bytes() + near%bytes(), dp)/p%n)
       call file%add('steps', run%step)
       call file%add('time', run%time)
       call file%add('threads', omp_get_max_threads())
