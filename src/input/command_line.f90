@@ -9,7 +9,8 @@ module command_line
 
    integer, parameter :: option_length = 12
    character(option_length), parameter :: switches(*) = [character(option_length) :: '--check', '--overwrite', &
-                                                         '--quiet', '--template', '--keys', '--help', '--version']
+                                                         '--quiet', '--shortest', '--template', '--keys', '--help', &
+                                                         '--version']
    character(option_length), parameter :: with_value(*) = [character(option_length) :: '--set', '--output']
    character(*), parameter :: see_help = 'dynsph --help lists the options'
 
@@ -21,6 +22,7 @@ module command_line
       logical :: check = .false.                  !! validate only
       logical :: overwrite = .false.              !! existing results may be replaced
       logical :: quiet = .false.                  !! nothing on the screen but errors
+      logical :: shortest = .false.               !! print the scene in few lines only
       logical :: template = .false.               !! print a template of all keys
       logical :: keys = .false.                   !! print the list of keys
       logical :: help = .false.
@@ -126,6 +128,8 @@ contains
          self%overwrite = .true.
       case ('--quiet')
          self%quiet = .true.
+      case ('--shortest')
+         self%shortest = .true.
       case ('--template')
          self%template = .true.
       case ('--keys')
@@ -200,6 +204,7 @@ contains
          '  --output DIR            directory of the results', &
          '  --overwrite             results that are in DIR already may be replaced', &
          '  --quiet                 nothing on the screen but errors', &
+         '  --shortest              print what of the scene differs from the defaults; run nothing', &
          '  --template              print a scene with all keys, defaults, units and ranges', &
          '  --keys                  print the same as Markdown tables', &
          '  --help                  print this', &

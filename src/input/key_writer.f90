@@ -1,4 +1,4 @@
-!> Prints the input keys: as a complete input, as a template to fill in, or as tables.
+!> Prints the input keys: as a complete input, as the shortest one, as a template to fill in, or as tables.
 module key_writer
    use key_visitor, only: key_visitor_t, range_t
    use kinds, only: dp
@@ -11,14 +11,21 @@ module key_writer
    integer, parameter, public :: as_echo = 1       !! values only
    integer, parameter, public :: as_template = 2   !! values with unit, range and meaning
    integer, parameter, public :: as_tables = 3     !! one Markdown table a group
+   integer, parameter, public :: as_defaults = 4   !! nothing: the values are kept for `as_shortest`
+   integer, parameter, public :: as_shortest = 5   !! what differs from these defaults, visited in the same order
 
    integer, parameter :: value_width = 28          ! columns kept for 'key = value'
+   integer, parameter :: widest = 100              ! columns of the shortest input
+   integer, parameter :: longest_value = 512       ! as text
 
    !> Writes what it visits to a unit.
    type, extends(key_visitor_t) :: key_writer_t
       integer :: unit = 0
       integer :: style = as_echo
       character(:), allocatable :: remark   !! what the template says above the next group
+      character(longest_value), allocatable, private :: defaults(:)   ! of all keys, in the order of the visits
+      integer, private :: visits = 0                                  ! of keys, with the scene's values
+      character(:), allocatable, private :: line   ! of the shortest input, not written yet
    contains
       procedure :: announce
       procedure :: enter
@@ -31,6 +38,7 @@ module key_writer
       procedure :: choice_key
       procedure :: list_key
       procedure, private :: write_key
+      procedure, private :: add_if_other
    end type key_writer_t
 
 contains
@@ -65,7 +73,8 @@ contains
       integer, intent(in) :: number
 
       call self%always()
-      if (self%style == as_tables) return
+      self%line = '&'//name
+      if (self%style >= as_tables) return
       write (self%unit, '(a)') ''
       if (self%style == as_template .and. number == 1) write (self%unit, '(a)') '! '//self%remark
       write (self%unit, '(a)') '&'//name
@@ -75,7 +84,8 @@ contains
    subroutine leave(self)
       class(key_writer_t), intent(inout) :: self
 
-      if (self%style /= as_tables) write (self%unit, '(a)') '/'
+      if (self%style < as_tables) write (self%unit, '(a)') '/'
+      if (self%style == as_shortest .and. index(self%line, ' = ') > 0) write (self%unit, '(a)') self%line//' /'
    end subroutine leave
 
    !> Writes a real number.
@@ -197,6 +207,11 @@ contains
          if (unit /= '') column = '['//unit//'] '//column
          if (self%condition /= '') column = column//'; only with '//self%condition
          write (self%unit, '(3x, a)') '! '//meaning, shown//'   ! '//column
+      case (as_defaults)
+         if (.not. allocated(self%defaults)) allocate (self%defaults(0))
+         self%defaults = [character(longest_value) :: self%defaults, value]
+      case (as_shortest)
+         call self%add_if_other(name, value, must)
       case default
          column = '`'//value//'`'
          if (must) column = '**required**'
@@ -205,6 +220,22 @@ contains
          write (self%unit, '(13a)') '| `', name, '` | ', column, ' | ', unit, ' | ', range, ' | ', shown, ' |'
       end select
    end subroutine write_key
+
+   !> Adds a key to the group's line if it must be given or its value is not the default.
+   subroutine add_if_other(self, name, value, must)
+      class(key_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name, value
+      logical, intent(in) :: must
+
+      self%visits = self%visits + 1
+      if (.not. self%active .or. (value == self%defaults(self%visits) .and. .not. must)) return
+      if (index(self%line, ' = ') > 0) self%line = self%line//','
+      if (len(self%line//name//value) + 6 > widest) then
+         write (self%unit, '(a)') self%line
+         self%line = '  '
+      end if
+      self%line = self%line//' '//name//' = '//value
+   end subroutine add_if_other
 
    !> Text for a cell of a Markdown table, where a bar would end the cell.
    pure function escaped(line) result(cell)

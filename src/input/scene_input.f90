@@ -1,9 +1,9 @@
-!> Reads a scene, and writes the complete input, a template or the list of keys.
+!> Reads a scene, and writes the complete input, the shortest one, a template or the list of keys.
 module scene_input
    use derived_settings, only: resolve_settings
    use errors, only: exit_files, exit_input, failure
    use key_reader, only: key_reader_t
-   use key_writer, only: as_echo, as_tables, as_template, key_writer_t
+   use key_writer, only: as_defaults, as_echo, as_shortest, as_tables, as_template, key_writer_t
    use namelist_text, only: scan_namelist
    use override_keys, only: apply_override
    use scene_keys, only: visit_keys
@@ -14,7 +14,7 @@ module scene_input
    private
 
    public :: read_settings, read_settings_text
-   public :: write_echo, echo_text, write_template, write_markdown
+   public :: write_echo, echo_text, write_shortest, write_template, write_markdown
 
 contains
 
@@ -79,27 +79,53 @@ contains
       writer%unit = unit
       writer%style = as_echo
       write (unit, '(a)') '! The complete input of this run: all keys that have an effect, with the defaults it used.'
-      call leave_derived_out(unit, copy%fluid)
+      call tell_derived(unit, setup%fluid)
+      call leave_derived_out(copy%fluid)
       call visit_keys(writer, copy)
    end subroutine write_echo
 
-   !> Takes back what is worked out from other keys: both at once would contradict each other when the echo is read.
-   subroutine leave_derived_out(unit, fluid)
+   !> Says what is worked out from other keys.
+   subroutine tell_derived(unit, fluid)
       integer, intent(in) :: unit
-      type(fluid_settings), intent(inout) :: fluid
+      type(fluid_settings), intent(in) :: fluid
 
       if (fluid%find_reference_speed) then
          write (unit, '(a)') '! sound_speed follows from mach once a coarse run has found reference_speed.'
-         fluid%sound_speed = 0
       else if (fluid%mach > 0) then
          write (unit, '(a)') '! sound_speed = '//to_text(fluid%sound_speed)//' follows from mach and reference_speed.'
-         fluid%sound_speed = 0
       end if
-      if (fluid%reynolds > 0) then
-         write (unit, '(a)') '! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.'
-         fluid%viscosity = 0
-      end if
+      if (fluid%reynolds > 0) write (unit, '(a)') '! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.'
+   end subroutine tell_derived
+
+   !> Takes back what is worked out from other keys: both at once would contradict each other when they are read.
+   pure subroutine leave_derived_out(fluid)
+      type(fluid_settings), intent(inout) :: fluid
+
+      if (fluid%find_reference_speed .or. fluid%mach > 0) fluid%sound_speed = 0
+      if (fluid%reynolds > 0) fluid%viscosity = 0
    end subroutine leave_derived_out
+
+   !> Writes the scene in as few lines as it takes; reading it gives the same complete input.
+   subroutine write_shortest(unit, setup)
+      integer, intent(in) :: unit
+      type(settings_t), intent(in) :: setup
+
+      type(key_writer_t) :: writer
+      type(settings_t) :: copy, defaults
+
+      allocate (defaults%bodies(size(setup%bodies)), defaults%probes(size(setup%probes)), defaults%gauges(size(setup%gauges)))
+      copy = setup
+      call leave_derived_out(copy%fluid)
+      if (.not. copy%fluid%gravity > 0) then
+         ! Hydrostatic pressure, the default, is none then.
+         where (copy%bodies%pressure == 'zero') copy%bodies%pressure = defaults%bodies%pressure
+      end if
+      writer%unit = unit
+      writer%style = as_defaults
+      call visit_keys(writer, defaults)
+      writer%style = as_shortest
+      call visit_keys(writer, copy)
+   end subroutine write_shortest
 
    !> The same as one text, lines ended by new_line.
    function echo_text(setup) result(content)

@@ -6,7 +6,7 @@
 !! density gradient accordingly, so that a linear hydrostatic field is continued exactly (docs/equations.md).
 !! At no-slip walls the viscous terms see another tangential velocity: `fill_no_slip`.
 module images
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use particles, only: particles_t, state_t, reserve_slots
    use strips, only: strips_t, sort_into_strips
    implicit none
@@ -34,6 +34,8 @@ module images
       type(strips_t) :: strips             !! where to find them
       integer, allocatable, private :: unsorted_source(:), unsorted_walls(:), used(:)
       real(dp), allocatable, private :: x(:), y(:)
+   contains
+      procedure :: bytes => images_bytes
    end type images_t
 
    !> A coordinate's image is sign*coordinate + offset, for each combination below.
@@ -156,6 +158,15 @@ contains
       self%x = [self%x, spread(0.0_dp, 1, larger - size(self%x))]
       self%y = [self%y, spread(0.0_dp, 1, larger - size(self%y))]
    end subroutine make_room
+
+   !> Bytes that all arrays take.
+   pure integer(i8) function images_bytes(self) result(bytes)
+      class(images_t), intent(in) :: self
+
+      bytes = self%strips%bytes()
+      if (allocated(self%source)) bytes = bytes &
+         + size(self%source, kind=i8)*(5*storage_size(self%source) + 2*storage_size(self%x))/8
+   end function images_bytes
 
    !> Gives every image the mirrored or moved state of its source.
    subroutine fill_images(self, walls, n_own, state)

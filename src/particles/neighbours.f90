@@ -7,7 +7,7 @@
 module neighbours
    use images, only: bottom_wall, fill_images, images_t, list_images, walls_t
    use kernel, only: kernel_t
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots
    use strips, only: add_ranges, extent_t, ranges_t, sort_into_strips, strips_t
@@ -28,9 +28,20 @@ module neighbours
       type(images_t) :: images               !! behind the own slots
       type(ranges_t), allocatable :: ranges(:)   !! (n_clusters) slots that a cluster can reach
       type(extent_t), allocatable, private :: clusters(:)   !! (n_clusters) predicted positions, velocities
+   contains
+      procedure :: bytes => neighbours_bytes
    end type neighbours_t
 
 contains
+
+   !> Bytes that all arrays take.
+   pure integer(i8) function neighbours_bytes(self) result(bytes)
+      class(neighbours_t), intent(in) :: self
+
+      bytes = self%strips%bytes() + self%images%bytes()
+      if (allocated(self%ranges)) bytes = bytes &
+         + size(self%ranges, kind=i8)*(storage_size(self%ranges) + storage_size(self%clusters))/8
+   end function neighbours_bytes
 
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!

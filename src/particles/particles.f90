@@ -3,7 +3,7 @@
 !! Own slots are filled strip by strip (module `strips`), each strip padded to whole
 !! clusters of `nl` slots with dummies: far away, without volume, id 0.
 module particles
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use lanes, only: nl
    implicit none
    private
@@ -22,6 +22,8 @@ module particles
 
    !> What particles carry only where a scene needs it.
    type :: features_t
+      logical :: viscosity = .true.      !! frozen viscous acceleration
+      logical :: diffusion = .true.      !! frozen density-diffusion rate and the gradient in it
       logical :: eddy = .false.          !! alpha_i and delta_i of the dynamic model
       logical :: no_slip = .false.       !! velocities of images at no-slip walls
       logical :: dissipation = .false.   !! dissipated energy of each particle
@@ -34,6 +36,7 @@ module particles
       integer :: n_own = 0      !! own slots, padding included: a multiple of nl
       integer :: n_slots = 0    !! own slots and images
       integer :: capacity = 0   !! slots allocated
+      integer :: bytes_per_slot = 0   !! in all arrays below
       type(state_t) :: base        !! state at the start of the step
       type(state_t) :: stage(2)    !! stage states, in turn read and written
       type(state_t) :: next        !! state at the end of the step, summed up over the stages
@@ -49,6 +52,8 @@ module particles
       real(dp), allocatable :: wall_u(:), wall_v(:)   !! (n_slots) velocity of an image's no-slip wall
       real(dp), allocatable :: dissipated(:)          !! (n_slots) energy, since the start
       real(dp), allocatable :: dissipating(:)         !! (n_slots) power; scratch of the sort
+   contains
+      procedure :: bytes => particles_bytes
    end type particles_t
 
 contains
@@ -68,40 +73,33 @@ contains
    subroutine reserve_slots(self, n_slots)
       type(particles_t), intent(inout) :: self
       integer, intent(in) :: n_slots
-      integer :: capacity, k
+      integer :: capacity, bytes, k
 
       if (n_slots <= self%capacity) return
       capacity = n_slots + n_slots/16
       capacity = nl*((capacity + nl - 1)/nl)
-      call grow_state(self%base, capacity)
-      call grow_state(self%next, capacity)
+      bytes = 0
+      call grow_state(self%base, capacity, bytes)
+      call grow_state(self%next, capacity, bytes)
       do k = 1, 2
-         call grow_state(self%stage(k), capacity)
+         call grow_state(self%stage(k), capacity, bytes)
       end do
-      call grow(self%m, capacity, 0.0_dp)
-      call grow(self%owner, capacity, 0.0_dp)
-      call grow(self%visc_x, capacity, 0.0_dp)
-      call grow(self%visc_y, capacity, 0.0_dp)
-      call grow(self%diff_s, capacity, 0.0_dp)
-      call grow(self%grad_x, capacity, 0.0_dp)
-      call grow(self%grad_y, capacity, 0.0_dp)
+      call grow(self%m, capacity, 0.0_dp, bytes)
+      call grow(self%owner, capacity, 0.0_dp, bytes)
       associate (features => self%features)
-         if (features%eddy .or. features%no_slip) call grow(self%alpha, capacity, 0.0_dp)
-         if (features%eddy) call grow(self%delta, capacity, 0.0_dp)
-         if (features%no_slip) then
-            call grow(self%jump_u, capacity, 0.0_dp)
-            call grow(self%jump_v, capacity, 0.0_dp)
-            call grow(self%wall_u, capacity, 0.0_dp)
-            call grow(self%wall_v, capacity, 0.0_dp)
-         end if
-         if (features%dissipation) then
-            call grow(self%dissipated, capacity, 0.0_dp)
-            call grow(self%dissipating, capacity, 0.0_dp)
-         end if
+         if (features%viscosity) call grow_pair(self%visc_x, self%visc_y, capacity, bytes)
+         if (features%diffusion) call grow(self%diff_s, capacity, 0.0_dp, bytes)
+         if (features%diffusion .or. features%dissipation) call grow_pair(self%grad_x, self%grad_y, capacity, bytes)
+         if (features%eddy .or. features%no_slip) call grow(self%alpha, capacity, 0.0_dp, bytes)
+         if (features%eddy) call grow(self%delta, capacity, 0.0_dp, bytes)
+         if (features%no_slip) call grow_pair(self%jump_u, self%jump_v, capacity, bytes)
+         if (features%no_slip) call grow_pair(self%wall_u, self%wall_v, capacity, bytes)
+         if (features%dissipation) call grow_pair(self%dissipated, self%dissipating, capacity, bytes)
       end associate
-      call grow_integer(self%id, capacity)
-      call grow_integer(self%sorted_id, capacity)
+      call grow_integer(self%id, capacity, bytes)
+      call grow_integer(self%sorted_id, capacity, bytes)
       self%capacity = capacity
+      self%bytes_per_slot = bytes
    end subroutine reserve_slots
 
    !> Exchanges two states without copying them.
@@ -125,33 +123,47 @@ contains
       call move_alloc(between, other)
    end subroutine swap
 
-   !> Bytes that a slot takes in the arrays above.
-   pure integer function bytes_per_slot(features)
-      type(features_t), intent(in) :: features
+   !> Bytes that all arrays take.
+   pure integer(i8) function particles_bytes(self) result(bytes)
+      class(particles_t), intent(in) :: self
 
-      bytes_per_slot = 8*(4*6 + 7) + 2*4
-      if (features%eddy .or. features%no_slip) bytes_per_slot = bytes_per_slot + 8
-      if (features%eddy) bytes_per_slot = bytes_per_slot + 8
-      if (features%no_slip) bytes_per_slot = bytes_per_slot + 4*8
-      if (features%dissipation) bytes_per_slot = bytes_per_slot + 2*8
+      bytes = int(self%capacity, i8)*self%bytes_per_slot
+   end function particles_bytes
+
+   !> Bytes that a slot takes in the arrays of particles with these features.
+   integer function bytes_per_slot(features)
+      type(features_t), intent(in) :: features
+      type(particles_t) :: none
+
+      call allocate_particles(none, 0, features)
+      bytes_per_slot = none%bytes_per_slot
    end function bytes_per_slot
 
-   subroutine grow_state(state, capacity)
+   subroutine grow_state(state, capacity, bytes)
       type(state_t), intent(inout) :: state
       integer, intent(in) :: capacity
+      integer, intent(inout) :: bytes   !! of a slot, as in all that follow: the array's are added
 
-      call grow(state%x, capacity, far_away)
-      call grow(state%y, capacity, far_away)
-      call grow(state%u, capacity, 0.0_dp)
-      call grow(state%v, capacity, 0.0_dp)
-      call grow(state%s, capacity, 0.0_dp)
-      call grow(state%w, capacity, 0.0_dp)
+      call grow(state%x, capacity, far_away, bytes)
+      call grow(state%y, capacity, far_away, bytes)
+      call grow_pair(state%u, state%v, capacity, bytes)
+      call grow_pair(state%s, state%w, capacity, bytes)
    end subroutine grow_state
 
-   subroutine grow(array, capacity, filler)
+   subroutine grow_pair(first, second, capacity, bytes)
+      real(dp), allocatable, intent(inout) :: first(:), second(:)
+      integer, intent(in) :: capacity
+      integer, intent(inout) :: bytes
+
+      call grow(first, capacity, 0.0_dp, bytes)
+      call grow(second, capacity, 0.0_dp, bytes)
+   end subroutine grow_pair
+
+   subroutine grow(array, capacity, filler, bytes)
       real(dp), allocatable, intent(inout) :: array(:)
       integer, intent(in) :: capacity
       real(dp), intent(in) :: filler
+      integer, intent(inout) :: bytes
       real(dp), allocatable :: larger(:)
       integer :: old
 
@@ -160,12 +172,14 @@ contains
       if (allocated(array)) old = size(array)
       if (old > 0) larger(1:old) = array
       larger(old + 1:) = filler
+      bytes = bytes + storage_size(larger)/8
       call move_alloc(larger, array)
    end subroutine grow
 
-   subroutine grow_integer(array, capacity)
+   subroutine grow_integer(array, capacity, bytes)
       integer, allocatable, intent(inout) :: array(:)
       integer, intent(in) :: capacity
+      integer, intent(inout) :: bytes
       integer, allocatable :: larger(:)
       integer :: old
 
@@ -174,6 +188,7 @@ contains
       if (allocated(array)) old = size(array)
       if (old > 0) larger(1:old) = array
       larger(old + 1:) = 0
+      bytes = bytes + storage_size(larger)/8
       call move_alloc(larger, array)
    end subroutine grow_integer
 

@@ -6,7 +6,7 @@
 !! The order of slots is that of strip, bin and previous slot, whatever the number of threads.
 module strips
    use, intrinsic :: iso_fortran_env, only: int64
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use lanes, only: nl
    use omp_lib, only: omp_get_max_threads
    implicit none
@@ -46,6 +46,8 @@ module strips
       integer, allocatable, private :: strip_of(:)  !! (points) scratch
       integer, allocatable, private :: by_strip(:)  !! (points) scratch
       integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from slot_start(1)
+   contains
+      procedure :: bytes => strips_bytes
    end type strips_t
 
 contains
@@ -305,6 +307,19 @@ contains
 
       speed = max(0.0_dp, a%fastest - b%slowest, b%fastest - a%slowest)
    end function relative_speed
+
+   !> Bytes that all arrays take.
+   pure integer(i8) function strips_bytes(self) result(bytes)
+      class(strips_t), intent(in) :: self
+
+      bytes = 0
+      if (.not. allocated(self%point_of)) return   ! nothing was sorted yet
+      associate (integers => size(self%slot_start, kind=i8) + size(self%bins) + size(self%bin_offset) + size(self%bin_start) &
+                             + size(self%strip_of) + size(self%by_strip) + size(self%point_of))
+         bytes = (integers*storage_size(self%bins) + size(self%left, kind=i8)*storage_size(self%left) &
+                  + size(self%extent, kind=i8)*storage_size(self%extent))/8
+      end associate
+   end function strips_bytes
 
    subroutine resize(array, n)
       integer, allocatable, intent(inout) :: array(:)

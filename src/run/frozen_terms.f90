@@ -7,7 +7,9 @@ module frozen_terms
    use eddy, only: freeze_coefficients, freeze_eddy_terms
    use eddy_sums, only: eddy_sums_t, sum_eddy
    use flow, only: as_flow_sums, flow_rates, rates_t
+   use flow_sums, only: flow_sums_t
    use gradient_sums, only: gradient_sums_t, sum_gradients
+   use inviscid_sums, only: sum_inviscid
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
@@ -34,10 +36,31 @@ contains
 
       if (model%dynamic) then
          call begin_dynamic(model, p, near, c, block)
-      else
+      else if (p%features%viscosity .or. p%features%diffusion) then
          call begin_constant(model, p, near, c, block)
+      else
+         call begin_inviscid(model, p, near, c, block)
       end if
    end subroutine begin_frozen_terms
+
+   ! With no diffusive term: the rates alone.
+   subroutine begin_inviscid(model, p, near, c, block)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: c
+      type(block_t), intent(inout) :: block
+      type(flow_sums_t) :: sums
+      type(rates_t) :: rates
+      real(dp) :: largest_pi(nl)
+      integer :: i0
+
+      i0 = (c - 1)*nl
+      call sum_inviscid(model%kernel, near%ranges(c), p%base, p%owner, i0, sums, largest_pi)
+      call flow_rates(model, p%base, i0, sums, rates)
+      call keep_rates(p, i0, rates)
+      block%largest_pi = max(block%largest_pi, maxval(largest_pi))
+   end subroutine begin_inviscid
 
    ! With constant coefficients.
    subroutine begin_constant(model, p, near, c, block)
@@ -54,7 +77,7 @@ contains
       call sum_gradients(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
       call flow_rates(model, p%base, i0, as_flow_sums(sums, p%base, i0), rates)
       call keep_rates(p, i0, rates)
-      call freeze_viscosity(model, sums, p, i0)
+      if (p%features%viscosity) call freeze_viscosity(model, sums, p, i0)
       if (model%delta > 0) then
          call freeze_gradient(model, sums, p, i0, singular)
          block%singular = block%singular + singular
@@ -114,7 +137,8 @@ contains
          call sum_diffusion(model%kernel, near%ranges(c), p, i0, neighbour_gradient)
          call freeze_density_diffusion(model, neighbour_gradient, p, i0)
       end if
-      if (p%features%no_slip) call add_friction(model, near%ranges(c), p, i0, block%wall_power)
+      if (p%features%no_slip .and. p%features%viscosity) &
+         call add_friction(model, near%ranges(c), p, i0, block%wall_power)
    end subroutine complete_frozen_terms
 
 end module frozen_terms

@@ -11,7 +11,7 @@ program main
    use report, only: estimate, start_box
    use result_directory, only: input_name, log_name, result_directory_t
    use run_log, only: log_t
-   use scene_input, only: echo_text, read_settings, write_markdown, write_template
+   use scene_input, only: echo_text, read_settings, write_markdown, write_shortest, write_template
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
@@ -60,7 +60,7 @@ contains
       write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles'
    end subroutine write_version
 
-   !> Reads the scene, then checks or runs it.
+   !> Reads the scene, then prints, checks or runs it.
    subroutine run_scene(options, problem)
       type(command_line_t), intent(in) :: options
       type(failure), intent(inout) :: problem
@@ -72,6 +72,10 @@ contains
 
       call read_settings(options%scene, options%overrides, scene, warnings, problem)
       if (problem%raised()) return
+      if (options%shortest) then
+         call write_shortest(output_unit, scene)
+         return
+      end if
       if (.not. options%check) then
          call run_into_directory(options, scene, warnings, problem)
          return

@@ -2,13 +2,15 @@
 module report
    use budget, only: budget_t
    use build_info, only: build_type, git_id, version
+   use cadence, only: cadence_t
    use errors, only: failure
    use images, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t
    use omp_lib, only: omp_get_max_threads
-   use particles, only: bytes_per_slot
+   use neighbours, only: neighbours_t
+   use particles, only: bytes_per_slot, features_t, particles_t
    use progress, only: duration_text
    use recorder, only: recorder_t
    use run_log, only: log_t
@@ -65,7 +67,7 @@ contains
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(estimate_t), intent(in) :: cost
-      character(160) :: lines(11)
+      character(160) :: lines(12)
 
       lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
                  //', h = 2 dx = '//short(model%kernel%h)
@@ -73,14 +75,16 @@ contains
       lines(3) = 'diffusion     '//diffusion_text(scene, model)
       lines(4) = 'Reynolds      '//reynolds_text(scene, model)
       lines(5) = 'uses          '//used(scene, model)
-      lines(6) = 'leaves out    '//unused(scene, model)
+      lines(6) = 'leaves out    '//left_out(scene, model)
       lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(cost%dt*model%c0/model%kernel%h)//'), about ' &
                  //short(anint(cost%steps))//' steps to t = '//short(scene%time%end_time)
-      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB'
+      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB, '//short(anint(cost%bytes/cost%particles)) &
+                 //' bytes a particle'
       lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
                  //' (at '//short(cost%ns)//' ns per particle-step and core)'
       lines(10) = 'output        '//output_text(scene)
-      lines(11) = 'dynsph        '//version//' '//git_id//' '//build_type
+      lines(11) = 'not written   '//not_written(scene)
+      lines(12) = 'dynsph        '//version//' '//git_id//' '//build_type
       call log%box(trim(scene%scene%title), lines)
    end subroutine start_box
 
@@ -170,22 +174,53 @@ contains
       if (size(scene%gauges) > 0) words = words//', '//to_text(size(scene%gauges))//' gauges'
    end function used
 
-   function unused(scene, model) result(words)
+   ! Terms that the scene's steps neither compute nor have arrays for.
+   function left_out(scene, model) result(words)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       character(:), allocatable :: words
+      type(features_t) :: has
+
+      has = needed_features(scene)
+      words = names_text([character(24) :: 'gravity', 'uniform force', 'central force', 'walls', 'no-slip', 'periodic sides', &
+                          'viscosity', 'density diffusion', 'dynamic coefficients'], &
+                         .not. [model%gravity > 0, model%has_force(), model%central_rate > 0, any(model%walls%present), &
+                                has%no_slip, any(model%walls%periodic), has%viscosity, has%diffusion, has%eddy])
+   end function left_out
+
+   ! What is neither measured nor written.
+   function not_written(scene) result(words)
+      type(settings_t), intent(in) :: scene
+      character(:), allocatable :: words, message
+      type(cadence_t) :: energy, probes, errors, snapshots
+      type(features_t) :: has
+
+      has = needed_features(scene)
+      ! The cadences' texts were checked with the input.
+      call energy%parse(trim(scene%output%energy), message)
+      call probes%parse(trim(scene%output%probes), message)
+      call errors%parse(trim(scene%output%errors), message)
+      call snapshots%parse(trim(scene%output%snapshots), message)
+      words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'snapshots', 'dissipation field'], &
+                         [energy%is_never(), size(scene%probes) == 0 .or. probes%is_never(), &
+                          size(scene%gauges) == 0 .or. probes%is_never(), &
+                          scene%exact%solution == 'none' .or. errors%is_never(), snapshots%is_never(), .not. has%dissipation])
+   end function not_written
+
+   ! The names marked, parted by commas; 'nothing' if there is none.
+   pure function names_text(names, marked) result(words)
+      character(*), intent(in) :: names(:)
+      logical, intent(in) :: marked(:)
+      character(:), allocatable :: words
+      integer :: k
 
       words = ''
-      if (.not. model%gravity > 0) words = words//', gravity'
-      if (.not. any(model%walls%present)) words = words//', walls'
-      if (.not. (any(model%walls%present) .or. any(model%walls%periodic))) words = words//', images'
-      if (.not. model%dynamic) words = words//', strain rate'
-      if (.not. (model%alpha > 0 .or. model%dynamic)) words = words//', viscosity'
-      if (.not. (model%delta > 0 .or. model%dynamic)) words = words//', density diffusion (no gradients, no second pass)'
-      if (size(scene%probes) == 0) words = words//', probes'
+      do k = 1, size(names)
+         if (marked(k)) words = words//', '//trim(names(k))
+      end do
       if (words == '') words = ', nothing'
       words = words(3:)
-   end function unused
+   end function names_text
 
    function sides_text(sides) result(words)
       logical, intent(in) :: sides(4)
@@ -247,11 +282,12 @@ contains
    end function works_text
 
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, reason, particles, run, seconds, recorder, problem)
+   subroutine write_summary_file(path, status, reason, p, near, run, seconds, recorder, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
       character(*), intent(in) :: reason      !! why it failed; '' if it did not
-      integer, intent(in) :: particles
+      type(particles_t), intent(in) :: p
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
       real(dp), intent(in) :: seconds
       type(recorder_t), intent(in) :: recorder
@@ -259,10 +295,11 @@ contains
       type(summary_t) :: file
       real(dp) :: rate
 
-      rate = real(particles, dp)*run%step/max(seconds, tiny(1.0_dp))
+      rate = real(p%n, dp)*run%step/max(seconds, tiny(1.0_dp))
       call file%add('status', status)
       if (reason /= '') call file%add('reason', reason)
-      call file%add('particles', particles)
+      call file%add('particles', p%n)
+      call file%add('bytes_per_particle', real(p%bytes() + near%bytes(), dp)/p%n)
       call file%add('steps', run%step)
       call file%add('time', run%time)
       call file%add('threads', omp_get_max_threads())

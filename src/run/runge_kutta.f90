@@ -61,21 +61,19 @@ contains
       else
          now = lanes_of(p%stage(stage_state(stage)), i0)
       end if
-      associate (m => p%m(i0 + 1:i0 + nl), visc_x => p%visc_x(i0 + 1:i0 + nl), visc_y => p%visc_y(i0 + 1:i0 + nl), &
-                 diff_s => p%diff_s(i0 + 1:i0 + nl))
-         full%u = rates%u + visc_x
-         full%v = rates%v + visc_y - model%gravity
-         full%s = rates%s + diff_s
+      full = rates
+      ! p V/rho = m p/rho**2 is the derivative of the elastic energy by rho, eq. 11
+      pressure = model%c0**2*now%s/(model%rho0 + now%s)*now%w
+      associate (m => p%m(i0 + 1:i0 + nl))
+         if (p%features%viscosity) call add_viscosity(p, i0, weight, now, full, sums%work(1))
+         if (p%features%diffusion) call add_diffusion(p, i0, weight, pressure, full, sums%work(2))
+         full%v = full%v - model%gravity
          if (model%central_rate > 0) call add_central_force(model, p, i0, stage, full)
          if (model%has_force()) then
             full%u = full%u + model%acceleration(1)
             full%v = full%v + model%acceleration(2)
             sums%work(4) = sums%work(4) + weight*sum(m*(now%u*model%acceleration(1) + now%v*model%acceleration(2)))
          end if
-         ! p V/rho = m p/rho**2 is the derivative of the elastic energy by rho, eq. 11
-         pressure = model%c0**2*now%s/(model%rho0 + now%s)*now%w
-         sums%work(1) = sums%work(1) + weight*sum(m*(now%u*visc_x + now%v*visc_y))
-         sums%work(2) = sums%work(2) + weight*sum(pressure*diff_s)
          sums%work(3) = sums%work(3) + weight*sum(m*(now%u*rates%u + now%v*rates%v) + pressure*rates%s)
       end associate
       call add_to_next(p, i0, stage, weight, now, full)
@@ -89,6 +87,37 @@ contains
          end associate
       end if
    end subroutine update_cluster
+
+   ! The frozen viscous acceleration, and its work.
+   pure subroutine add_viscosity(p, i0, weight, now, rates, work)
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: i0
+      real(dp), intent(in) :: weight        !! dt b_k
+      type(lanes_t), intent(in) :: now
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(inout) :: work
+
+      associate (x => p%visc_x(i0 + 1:i0 + nl), y => p%visc_y(i0 + 1:i0 + nl))
+         rates%u = rates%u + x
+         rates%v = rates%v + y
+         work = work + weight*sum(p%m(i0 + 1:i0 + nl)*(now%u*x + now%v*y))
+      end associate
+   end subroutine add_viscosity
+
+   ! The frozen density-diffusion rate, and its work.
+   pure subroutine add_diffusion(p, i0, weight, pressure, rates, work)
+      type(particles_t), intent(in) :: p
+      integer, intent(in) :: i0
+      real(dp), intent(in) :: weight        !! dt b_k
+      real(dp), intent(in) :: pressure(nl)  !! p V/rho
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(inout) :: work
+
+      associate (s => p%diff_s(i0 + 1:i0 + nl))
+         rates%s = rates%s + s
+         work = work + weight*sum(pressure*s)
+      end associate
+   end subroutine add_diffusion
 
    ! -w**2 (r - centre); nothing for dummies, which are far away.
    pure subroutine add_central_force(model, p, i0, stage, rates)

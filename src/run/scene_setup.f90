@@ -87,6 +87,8 @@ contains
 
       associate (domain => scene%domain, output => scene%output)
          features%eddy = scene%model%diffusion == 'dynamic'
+         features%viscosity = features%eddy .or. scene%alpha_total() > 0
+         features%diffusion = features%eddy .or. scene%model%delta > 0
          features%no_slip = any([domain%left, domain%right, domain%bottom, domain%top] == 'no_slip')
          features%dissipation = any(output%fields(:output%n_fields) == 'dissipation')
       end associate

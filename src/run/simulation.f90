@@ -73,7 +73,7 @@ contains
       reason = ''
       if (problem%raised()) reason = problem%message
       seconds = wall_seconds() - started
-      call write_summary_file(directory%file(summary_name), status, reason, p%n, run, seconds, recorder, closing)
+      call write_summary_file(directory%file(summary_name), status, reason, p, near, run, seconds, recorder, closing)
       if (closing%raised()) call problem%raise(closing%code, closing%message)
       if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
          //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
