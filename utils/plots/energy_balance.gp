@@ -15,7 +15,8 @@ height = single ? 600 : 300*rows
 
 set terminal pngcairo size width,height font single ? font : 'DejaVu Sans,10'
 set output png
-set multiplot layout rows,columns margins 80.0/width,1 - 25.0/width,55.0/height,1 - (single ? 45.0 : 30.0)/height \
+set multiplot layout rows,columns margins (single ? 120.0 : 80.0)/width,1 - 25.0/width,(single ? 75.0 : 55.0)/height, \
+   1 - (single ? 50.0 : 30.0)/height \
    spacing 62.0/width,78.0/height
 positive(value) = value > 0 ? value : NaN    # a logarithmic axis has no zero
 set logscale y
@@ -25,8 +26,9 @@ do for [i=1:n] {
    data = name_of(i).'/energy.dat'
    set title head_text(data, 'title') noenhanced font single ? 'DejaVu Sans,14' : 'DejaVu Sans,10' offset 0,single ? 0 : -0.5
    set xlabel scaled_time_in(data) offset 0,single ? 0 : 0.5
-   if (single || i%columns == 1) { set ylabel single ? energy_axis('|error of the balance|', data) : '|error|' offset single ? 0 : 1,0
-   } else { unset ylabel }
+   unset ylabel
+   if (single) { set ylabel energy_axis('|error of the balance|', data) }
+   if (!single && i%columns == 1) { set ylabel '|error|' offset 1,0 }
    largest_error = system("awk '!/^#/ && !column { for (k = 1; k <= NF; k++) if ($k == \"balance_error/dE\") column = k; next } \
       column { e = $column < 0 ? -$column : $column; if (e > most) most = e } END { print most + 0 }' '".data."'") + 0
    # Errors of a few 1e-8 to 1, or whatever smaller ones there are.
@@ -37,7 +39,8 @@ do for [i=1:n] {
       unset key
       set label 1 sprintf('at most %.1e', largest_error) at graph 0.97,0.07 right front
    }
-   plot data using (column('time_scaled')):(positive(abs(column('balance_error/dE')))) with lines linetype 4 title 'error of the energy balance', \
+   plot data using (column('time_scaled')):(positive(abs(column('balance_error/dE')))) with lines linetype 4 \
+           title 'error of the energy balance', \
         5e-3 with lines linetype 1 linewidth 1 linecolor rgb '#808080' dashtype 2 title '0.5 %'
 }
 unset multiplot

@@ -1,12 +1,11 @@
 # Largest error of the energy balance against the cfl number, a line for each scene and integrator, by utils/studies/error_vs_time.
 #
-# usage: gnuplot -e "out='DIRECTORY'" utils/plots/energy_cfl.gp     reads DIRECTORY/energy_cfl.dat, writes DIRECTORY/energy_cfl.png
+# usage: gnuplot -e "table='TABLE'; png='PICTURE'" utils/plots/energy_cfl.gp
 if (!exists("plots")) plots = 'utils/plots'
 load plots.'/style.gp'
 set datafile missing 'none'
-table = out.'/energy_cfl.dat'
 set terminal pngcairo size 1150,720 font font
-set output out.'/energy_cfl.png'
+set output png
 series = system("awk 'NR > 1 && !seen[$1, $2]++ { print $1 \":\" $2 }' '".table."'")
 scenes = system("awk 'NR > 1 && !seen[$1]++ { print $1 }' '".table."'")
 integrators = system("awk 'NR > 1 && !seen[$2]++ { print $2 }' '".table."'")
@@ -24,7 +23,8 @@ set key noenhanced
 # Slopes through the middle of the picture.
 stats table using (column('cfl') > 0.5 && column('cfl') < 0.8 ? column('balance_error') : NaN) nooutput
 middle = STATS_median
-plot for [s in series] table using (strcol(1) eq scene(s) && strcol(2) eq integrator(s) ? column('cfl') : NaN):(column('balance_error')) \
+plot for [s in series] table using (strcol(1) eq scene(s) && strcol(2) eq integrator(s) ? column('cfl') : NaN) \
+        :(column('balance_error')) \
         with linespoints linetype place(scenes, scene(s)) dashtype place(integrators, integrator(s)) \
         pointtype (word('7 4 8 6', place(integrators, integrator(s))) + 0) title scene(s).', '.integrator(s), \
      [0.3:1.6] middle*(x/0.75)**4 with lines linewidth 1 dashtype 3 linecolor rgb '#606060' title 'order 4', \

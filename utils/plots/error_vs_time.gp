@@ -23,8 +23,6 @@ type(i) = word('7 5 9 11 13 6 4 8 10 12', (i - 1)%10 + 1) + 0
 set logscale xy
 set format xy '10^{%T}'
 set xlabel 'run time [s]' offset 0,0.4
-set autoscale noextend
-set offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06
 unset key
 do for [panel in panels] {
    colon = strstrt(panel, ':')

@@ -2,9 +2,20 @@
 # method, d/dx, particles, steps, seconds (median, least, most of the repeats), repeats, and one column for each kind of error;
 # 'none' is no number. A table's rows are in order of method and d/dx.
 #
-# usage: awk -v task=runs -f error_vs_time.awk SCENE.dat           all runs of a scene; an error on the front is bold
-#        awk -v task=levels -v default=METHOD -v methods="METHOD ..." -f error_vs_time.awk SCENE.dat...
-#                                                                  time for errors between those of the default, as a share of its time
+# task=runs SCENE.dat: all runs of a scene; an error on the front is bold. task=levels SCENE.dat...: time for errors between those of
+# the default as a share of its time; methods: all names, the default first. task=energy_cfl energy_cfl.dat: a row for each scene and
+# integrator, a column for each cfl number.
+#
+# usage: awk -v task=TASK -v methods="METHOD ..." -f utils/studies/error_vs_time.awk TABLE...
+BEGIN { n_methods = split(methods, name, " "); default = name[1] }
+task == "energy_cfl" {
+   if (FNR == 1) next
+   row = $1 " | " $2
+   if (!(row in known)) { known[row]; rows[++n_rows] = row }
+   if (!($3 in seen)) { seen[$3]; cfl[++n_cfls] = $3 }
+   value[row, $3] = $4
+   next
+}
 /^#/ { if (runs) finish(); scene = $2; runs = 0; next }
 $1 == "method" { kinds = NF - 8; for (k = 1; k <= kinds; k++) kind[k] = $(k + 8); next }
 {
@@ -13,7 +24,7 @@ $1 == "method" { kinds = NF - 8; for (k = 1; k <= kinds; k++) kind[k] = $(k + 8)
    seconds[runs] = $5; least[runs] = $6; most[runs] = $7; repeats[runs] = $8
    for (k = 1; k <= kinds; k++) error[runs, k] = $(k + 8)
 }
-END { if (runs) finish(); if (task == "levels") means() }
+END { if (runs) finish(); if (task == "levels") means(); if (task == "energy_cfl") all_cfls() }
 
 function finish() { if (task == "runs") all_runs(); else all_levels() }
 
@@ -58,13 +69,12 @@ function time_for(name, k, level,    i, last, share) {
 
 # A level is half way, in logarithms, between two errors of the default in a row: at its own points others of the same error would
 # miss it by a digit. Errors of 1 and more say nothing, of whatever size they are.
-function all_levels(    i, j, k, n, name, level, own, time, last, best, fastest) {
-   n = split(methods, name, " ")
+function all_levels(    i, j, k, level, own, time, last, best, fastest) {
    if (!headed++) {
       printf "| scene | error | level | %s [s] |", default
-      for (j = 1; j <= n; j++) if (name[j] != default) printf " %s |", name[j]
+      for (j = 1; j <= n_methods; j++) if (name[j] != default) printf " %s |", name[j]
       printf " fastest |\n| --- | --- | --- | --- |"
-      for (j = 1; j <= n; j++) printf " --- |"
+      for (j = 1; j <= n_methods; j++) printf " --- |"
       print ""
    }
    for (k = 1; k <= kinds; k++) {
@@ -76,7 +86,7 @@ function all_levels(    i, j, k, n, name, level, own, time, last, best, fastest)
             own = time_for(default, k, level)
             printf "| %s | %s | %.1e | %.3g |", scene, kind[k], level, own
             best = 1; fastest = default
-            for (j = 1; j <= n; j++) {
+            for (j = 1; j <= n_methods; j++) {
                if (name[j] == default) continue
                time = time_for(name[j], k, level)/own
                printf((time == 0 ? " - |" : time < 0 ? " < %.2f |" : " %.2f |"), (time < 0 ? -time : time))
@@ -92,12 +102,28 @@ function all_levels(    i, j, k, n, name, level, own, time, last, best, fastest)
 }
 
 # Over the rows that have a number, which are not the same ones for all methods.
-function means(    j, n, name) {
-   n = split(methods, name, " ")
+function means(    j) {
    printf "| all | geometric mean (rows) | | |"
-   for (j = 1; j <= n; j++) {
+   for (j = 1; j <= n_methods; j++) {
       if (name[j] == default) continue
       if (counted[j]) printf " %.2f (%d) |", exp(logs[j]/counted[j]), counted[j]; else printf " - |"
    }
    print " |"
+}
+
+function all_cfls(    i, k) {
+   printf "| scene | integrator |"
+   for (i = 1; i <= n_cfls; i++) printf " cfl %s |", cfl[i]
+   printf "\n| --- | --- |"
+   for (i = 1; i <= n_cfls; i++) printf " --- |"
+   print ""
+   for (k = 1; k <= n_rows; k++) {
+      printf "| %s |", rows[k]
+      for (i = 1; i <= n_cfls; i++) {
+         if (!((rows[k], cfl[i]) in value)) printf " - |"
+         else if (value[rows[k], cfl[i]] == "none") printf " failed |"
+         else printf " %.1e |", value[rows[k], cfl[i]]
+      }
+      print ""
+   }
 }
