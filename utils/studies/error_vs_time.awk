@@ -2,12 +2,12 @@
 # method, d/dx, particles, steps, seconds (median, least, most of the repeats), repeats, and one column for each kind of error;
 # 'none' is no number. A table's rows are in order of method and d/dx.
 #
-# task=runs SCENE.dat: all runs of a scene; an error on the front is bold. task=levels SCENE.dat...: time for errors between those of
-# the default as a share of its time; methods: all names, the default first. task=energy_cfl energy_cfl.dat: a row for each scene and
-# integrator, a column for each cfl number.
+# task=runs SCENE.dat: all runs of a scene; an error on the front is bold.
+# task=levels SCENE.dat...: time for errors between those of the default as a share of its time; methods: all names, the default first.
+# task=energy_cfl energy_cfl.dat: a row for each scene and integrator, a column for each cfl number.
 #
 # usage: awk -v task=TASK -v methods="METHOD ..." -f utils/studies/error_vs_time.awk TABLE...
-BEGIN { n_methods = split(methods, name, " "); default = name[1] }
+BEGIN { n_methods = split(methods, name, " "); base = name[1] }
 task == "energy_cfl" {
    if (FNR == 1) next
    row = $1 " | " $2
@@ -71,8 +71,8 @@ function time_for(name, k, level,    i, last, share) {
 # miss it by a digit. Errors of 1 and more say nothing, of whatever size they are.
 function all_levels(    i, j, k, level, own, time, last, best, fastest) {
    if (!headed++) {
-      printf "| scene | error | level | %s [s] |", default
-      for (j = 1; j <= n_methods; j++) if (name[j] != default) printf " %s |", name[j]
+      printf "| scene | error | level | %s [s] |", base
+      for (j = 1; j <= n_methods; j++) if (name[j] != base) printf " %s |", name[j]
       printf " fastest |\n| --- | --- | --- | --- |"
       for (j = 1; j <= n_methods; j++) printf " --- |"
       print ""
@@ -80,14 +80,14 @@ function all_levels(    i, j, k, level, own, time, last, best, fastest) {
    for (k = 1; k <= kinds; k++) {
       last = 0
       for (i = 1; i <= runs; i++) {
-         if (method[i] != default || error[i, k] == "none" || !(error[i, k] > 0)) continue
+         if (method[i] != base || error[i, k] == "none" || !(error[i, k] > 0)) continue
          level = last ? sqrt(last*error[i, k]) : 1
          if (level < 1 && error[i, k] < last) {
-            own = time_for(default, k, level)
+            own = time_for(base, k, level)
             printf "| %s | %s | %.1e | %.3g |", scene, kind[k], level, own
-            best = 1; fastest = default
+            best = 1; fastest = base
             for (j = 1; j <= n_methods; j++) {
-               if (name[j] == default) continue
+               if (name[j] == base) continue
                time = time_for(name[j], k, level)/own
                printf((time == 0 ? " - |" : time < 0 ? " < %.2f |" : " %.2f |"), (time < 0 ? -time : time))
                if (time > 0) { logs[j] += log(time); counted[j]++ }
@@ -105,7 +105,7 @@ function all_levels(    i, j, k, level, own, time, last, best, fastest) {
 function means(    j) {
    printf "| all | geometric mean (rows) | | |"
    for (j = 1; j <= n_methods; j++) {
-      if (name[j] == default) continue
+      if (name[j] == base) continue
       if (counted[j]) printf " %.2f (%d) |", exp(logs[j]/counted[j]), counted[j]; else printf " - |"
    }
    print " |"
