@@ -14,8 +14,9 @@ module linear_stability
 
    integer, parameter :: waves_along = 24        ! wave numbers looked at, along an axis
    real(dp), parameter :: frozen_negative = 2    ! Euler's limit
-   !> Near the limit of sound the diffusive terms take a little of it: up to 3 % (test `no_accepted_step_lets_a_wave_grow`).
-   real(dp), parameter :: sound_margin = 0.95_dp
+   !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop has lost its
+   !! energy balance at 0.95 and a dam break at 0.90 of it, not at 0.84 (docs/equations.md).
+   real(dp), parameter :: sound_margin = 0.84_dp
    !> In disordered fluid the kernel sum, and with it the rate of diffusion, is up to 1.3 times the lattice's (docs/equations.md).
    real(dp), parameter :: diffusion_margin = 0.6808_dp
    !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on
@@ -33,7 +34,7 @@ module linear_stability
 
 contains
 
-   !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.37, 0.2 and 0.5.
+   !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.09, 0.2 and 0.5.
    pure type(stability_t) function new_stability(integrator, frozen, ratio, delta, alpha) result(self)
       type(integrator_t), intent(in) :: integrator
       logical, intent(in) :: frozen   !! diffusive terms are held over the step
