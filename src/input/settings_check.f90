@@ -36,6 +36,7 @@ contains
       type(findings_t), intent(inout) :: notes
 
       call check_domain(document, setup, notes)
+      call check_units(document, setup, notes)
       call check_mach(document, setup, notes)
       call check_stability(document, setup, notes)
       call check_viscosity(document, setup, notes)
@@ -45,6 +46,23 @@ contains
       call check_exact(document, setup, notes)
       call check_output(document, setup, notes)
    end subroutine check_settings
+
+   !> Energies must not overflow, and snapshots in single precision must hold density and pressure.
+   subroutine check_units(document, setup, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(in) :: setup
+      type(findings_t), intent(inout) :: notes
+
+      real(dp), parameter :: largest = 1.0e30_dp
+
+      if (.not. (notes%clean('fluid') .and. notes%clean('scene'))) return
+      associate (d => setup%scene%reference_length, rho => setup%fluid%density, c0 => setup%fluid%sound_speed)
+         if (maxval(abs(log10([d, rho, c0]))) < log10(largest) .and. abs(log10(rho) + 2*log10(c0)) < log10(largest)) return
+         call notes%mistake(document%place_of('fluid', 1, 'density'), 'fluid', '&fluid: reference_length = '//short(d) &
+                            //', density = '//short(rho)//', sound speed = '//short(c0)//' and density*(sound speed)**2 must all ' &
+                            //'be between 1e-30 and 1e30: choose other units')
+      end associate
+   end subroutine check_units
 
    !> The fluid should be only weakly compressible.
    subroutine check_mach(document, setup, notes)

@@ -4,9 +4,9 @@
 !! units of dx, times in units of h/c0, grad W = F r and sums over the lattice,
 !!   dw/dt = -S s - alpha M w        S = h sum sin(k.r) F r,   M = h**2 sum (1 - cos k.r) F r r/r**2
 !!   ds/dt =  S.w - delta D s        D = h**2 [ 2 sum (1 - cos k.r) F - |S/h|**2/L ],   L = sum x**2 F.
-!! The terms with S are A of module `integrators`, those with alpha and delta are B.
+!! The terms with S are A of `step_matrix`, those with alpha and delta are B, which may be frozen over the step.
 module von_neumann
-   use integrators, only: integrator_t, step_polynomial
+   use integrators, only: integrator_t
    use kernel, only: kernel_gradient, kernel_t, new_kernel
    use kinds, only: dp
    implicit none
@@ -122,28 +122,30 @@ contains
       end do
    end function stable_cfl
 
-   ! 1 + sum_m c_m cfl**m P**(m-1) (A + B); P = A where B is frozen, else A + B.
+   ! What a step makes of (w, s): the scheme applied to the unit matrix.
    pure function step_matrix(wave, integrator, frozen, delta, alpha, cfl) result(step)
       type(wave_t), intent(in) :: wave
       type(integrator_t), intent(in) :: integrator
       logical, intent(in) :: frozen
       real(dp), intent(in) :: delta, alpha, cfl
-      real(dp) :: step(3, 3), power(3, 3), again(3, 3), c(integrator%stages)
-      integer :: m
+      real(dp), dimension(3, 3) :: step, unit, a, b, rates, stage
+      integer :: k
 
-      again = 0
-      again(1:2, 3) = -cfl*wave%sound
-      again(3, 1:2) = cfl*wave%sound
-      power = again
-      power(1, 1:2) = -cfl*alpha*wave%viscous(1:2)
-      power(2, 1:2) = -cfl*alpha*wave%viscous(2:3)
-      power(3, 3) = -cfl*delta*wave%diffusive
-      if (.not. frozen) again = power
-      c = step_polynomial(integrator)
-      step = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
-      do m = 1, integrator%stages
-         step = step + c(m)*power
-         power = matmul(again, power)
+      a = 0
+      a(1:2, 3) = -cfl*wave%sound
+      a(3, 1:2) = cfl*wave%sound
+      b = 0
+      b(1, 1:2) = -cfl*alpha*wave%viscous(1:2)
+      b(2, 1:2) = -cfl*alpha*wave%viscous(2:3)
+      b(3, 3) = -cfl*delta*wave%diffusive
+      unit = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+      step = unit
+      stage = unit
+      do k = 1, integrator%stages
+         rates = matmul(a, stage) + b
+         if (.not. frozen) rates = matmul(a + b, stage)
+         step = step + integrator%weight(k)*rates
+         stage = unit + integrator%ahead(k)*rates
       end do
    end function step_matrix
 

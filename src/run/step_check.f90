@@ -36,7 +36,8 @@ contains
          ! Written so that NaN fails too.
          if (.not. run%dt >= least_step_share*model%longest_step() .and. run%time < end_time) &
             call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
-                               //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)))
+                               //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)) &
+                               //'; a smaller limit of &model may help')
       end associate
    end subroutine check_step
 
