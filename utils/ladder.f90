@@ -110,7 +110,7 @@ contains
       rest = rest(index(rest, '|') + 1:)
       do while (rest /= '')
          bar = index(rest, '|')
-         overrides = [overrides, [character(longest_line) :: adjustl(rest(:bar - 1))]]
+         overrides = [character(longest_line) :: overrides, adjustl(rest(:bar - 1))]
          rest = rest(bar + 1:)
       end do
       call read_settings(path, overrides, variant%scene, warnings, problem)
