@@ -6,7 +6,7 @@
 !! other and then all again, forwards and backwards in turn, so that what disturbs the machine disturbs all alike. A
 !! variant is a line 'name | scene.nml | group.key=value | ...' of the same particles. Its tables and snapshots go to
 !! DIR/NAME. Prints for each variant and repeat: name, repeat, particles, bytes of a slot, bytes per particle of all
-!! arrays, then ns per particle-step in all and by phase.
+!! arrays, ns of processor time per particle-step, steps repeated, and ns of wall time by phase. For one thread.
 program ladder
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, output_unit
    use command_line, only: command_line_t, parse_command_line
@@ -21,7 +21,7 @@ program ladder
    use scene_setup, only: needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
    use time_step, only: advance, refresh, step_t
-   use timers, only: timers_t, wall_seconds
+   use timers, only: timers_t
    implicit none
 
    integer, parameter :: phase_output = 5
@@ -110,7 +110,7 @@ contains
       rest = rest(index(rest, '|') + 1:)
       do while (rest /= '')
          bar = index(rest, '|')
-         overrides = [overrides, [character(longest_line) :: adjustl(rest(:bar - 1))]]
+         overrides = [character(longest_line) :: overrides, adjustl(rest(:bar - 1))]
          rest = rest(bar + 1:)
       end do
       call read_settings(path, overrides, variant%scene, warnings, problem)
@@ -208,7 +208,7 @@ contains
       type(neighbours_t) :: near
       type(step_t) :: run
       type(timers_t) :: timers
-      real(dp) :: started, ns
+      real(dp) :: started, ended, ns
       integer :: k
 
       associate (model => variant%model)
@@ -219,7 +219,7 @@ contains
          call timers%initialise(phases)
          call refresh(model, p, near, run, timers)
          call timers%initialise(phases)
-         started = wall_seconds()
+         call cpu_time(started)
          do k = 1, steps
             call advance(model, p, near, run, huge(1.0_dp), timers)
             if (run%lost_slot > 0 .or. run%scattered) &
@@ -230,9 +230,11 @@ contains
             call variant%recorder%record(variant%scene, model, p, near, run, variant%directory, .false., problem)
             call timers%stop(phase_output)
          end do
+         call cpu_time(ended)
          ns = 1.0e9_dp/(real(steps, dp)*p%n)
-         write (output_unit, '(a, 3(1x, i0), 7(1x, f0.2))') trim(variant%name), repeat, p%n, p%bytes_per_slot, &
-            real(p%bytes() + near%bytes(), dp)/p%n, ns*(wall_seconds() - started), (ns*timers%seconds(k), k=1, size(phases))
+         write (output_unit, '(a, 3(1x, i0), 2(1x, f0.2), 1x, i0, 5(1x, f0.2))') trim(variant%name), repeat, p%n, &
+            p%bytes_per_slot, real(p%bytes() + near%bytes(), dp)/p%n, ns*(ended - started), run%repeated - variant%run%repeated, &
+            (ns*timers%seconds(k), k=1, size(phases))
       end associate
    end subroutine time_steps
 

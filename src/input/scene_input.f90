@@ -171,9 +171,9 @@ contains
       writer%style = as_tables
       write (unit, '(a)') '# Input keys', '', &
          'This page is written by the program itself: `dynsph --keys > docs/input.md`.', '', &
-         'A scene is a namelist file; `dynsph --template` prints one to fill in. Units are SI or any other consistent set,', &
-         'such as d = g = density = 1, in which times are t sqrt(g/d). `--set group.key=value` on the command line goes', &
-         'before the file; `body(2).key` means the second &body.'
+         'A scene is a namelist file; `dynsph --template` prints one to fill in, `dynsph --shortest FILE.nml` what of a scene', &
+         'differs from the defaults. Units are SI or any other consistent set, such as d = g = density = 1, in which times are', &
+         't sqrt(g/d). `--set group.key=value` on the command line goes before the file; `body(2).key` means the second &body.'
       call visit_defaults(writer)
    end subroutine write_markdown
 
