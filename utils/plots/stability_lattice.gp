@@ -14,7 +14,8 @@ set style fill solid noborder
 unset grid
 set ylabel 'cfl = dt c_0/h'
 set yrange [0:3.3]
-set key outside bottom center horizontal samplen 2 width 1
+set bmargin 9
+set key at screen 0.5,0.01 center bottom samplen 2 width 1 maxrows 4
 set xrange [-0.025:0.625]
 set xlabel 'δ, α = 0'
 plot dir.'/map_delta.txt' using 1:3:(0.024):(0.094):(colour($5)) with boxxyerror linecolor rgb variable notitle, \
@@ -22,12 +23,12 @@ plot dir.'/map_delta.txt' using 1:3:(0.024):(0.094):(colour($5)) with boxxyerror
    1/0 with boxes linecolor rgb 0xf0b070 title '< 30 %', 1/0 with boxes linecolor rgb 0xd55e00 title '> 30 %', \
    '< grep "^frozen" '.dir.'/edges.txt | awk "\$3 == 0"' using 2:4 with lines linecolor rgb 'black' linewidth 2 title 'theory', \
    '' using 2:5 with points pointtype 6 linecolor rgb 'black' title 'measured edge', \
-   (x > 0.0957 ? 0.2/x : 2.091) with lines linecolor rgb 'black' dashtype 2 title 'step rule'
+   (x > 0.0957 ? 0.2/x : 2.091) with lines linecolor rgb 'black' linewidth 1.5 dashtype 2 title 'step rule'
 set xrange [-0.05:1.25]
 set xlabel 'α, δ = 0'
 plot dir.'/map_alpha.txt' using 2:3:(0.048):(0.094):(colour($5)) with boxxyerror linecolor rgb variable notitle, \
-   '< grep "^frozen" '.dir.'/edges_alpha.txt | awk "\$2 == 0"' using 3:4 with lines linecolor rgb 'black' linewidth 2 title 'theory', \
-   '' using 3:5 with points pointtype 6 linecolor rgb 'black' title 'measured edge', \
-   (x > 0.2391 ? 0.5/x : 2.091) with lines linecolor rgb 'black' dashtype 2 title 'step rule'
+   '< grep "^frozen" '.dir.'/edges_alpha.txt | awk "\$2 == 0"' using 3:4 with lines linecolor rgb 'black' linewidth 2 notitle, \
+   '' using 3:5 with points pointtype 6 linecolor rgb 'black' notitle, \
+   (x > 0.2391 ? 0.5/x : 2.091) with lines linecolor rgb 'black' linewidth 1.5 dashtype 2 notitle
 unset multiplot
 unset output
