@@ -5,7 +5,7 @@
 module inviscid_sums
    use flow_sums, only: flow_sums_t
    use kinds, only: dp
-   use kernel, only: kernel_t, root
+   use kernel, only: closest, kernel_t, root
    use lanes, only: nl
    use particles, only: state_t
    use strips, only: ranges_t
@@ -24,7 +24,7 @@ contains
       real(dp), intent(in), contiguous :: owner(:)   !! (n_slots) slot of the particle, or of the image's source
       integer, intent(in) :: i0               !! slot before the cluster's first
       type(flow_sums_t), intent(out) :: sums
-      real(dp), intent(out) :: largest_pi(nl) !! max_j |pi_ij|, the particle's own images left out
+      real(dp), intent(out) :: largest_pi(nl) !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
 
       call lane_loop(ranges%n, ranges%first, ranges%last, size(state%x), state%x, state%y, state%u, state%v, state%s, state%w, &
                      owner, i0, kernel%inverse_support, sums%divergence, sums%force_x, sums%force_y, largest_pi)
@@ -36,7 +36,7 @@ contains
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), owner(n), inverse_support
       real(dp), intent(out) :: div(nl), fx(nl), fy(nl), pi_max(nl)
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
-      real(dp) :: dx, dy, r, inverse, t, g, s_sum, du_dr, other
+      real(dp) :: dx, dy, r, inverse, t, g, s_sum, du_dr, other, most
       integer :: k, j, l
 
       xi = x(i0 + 1:i0 + nl)
@@ -49,6 +49,7 @@ contains
       fx = 0
       fy = 0
       pi_max = 0
+      most = (2*inverse_support/closest)**2
       do k = 1, n_ranges
          do j = first(k), last(k)
             !$omp simd private(dx, dy, r, inverse, t, g, s_sum, du_dr, other)
@@ -64,7 +65,7 @@ contains
                fx(l) = fx(l) + s_sum*dx
                fy(l) = fy(l) + s_sum*dy
                other = min(t, abs(owner(j) - oi(l)))
-               pi_max(l) = max(pi_max(l), merge(abs(du_dr)*inverse*inverse, 0.0_dp, other > 0))
+               pi_max(l) = max(pi_max(l), merge(abs(du_dr)*min(inverse*inverse, most), 0.0_dp, other > 0))
             end do
          end do
       end do
