@@ -12,7 +12,11 @@ task == "energy_cfl" {
    if (FNR == 1) next
    row = $1 " | " $2
    if (!(row in known)) { known[row]; rows[++n_rows] = row }
-   if (!($3 in seen)) { seen[$3]; cfl[++n_cfls] = $3 }
+   if (!($3 in seen)) {   # in their order
+      seen[$3]
+      for (k = n_cfls++; k > 0 && cfl[k] + 0 > $3 + 0; k--) cfl[k + 1] = cfl[k]
+      cfl[k + 1] = $3
+   }
    value[row, $3] = $4
    next
 }
