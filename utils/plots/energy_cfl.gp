@@ -17,8 +17,8 @@ set logscale xy
 set xlabel 'cfl number'
 set ylabel 'largest |error of the energy balance| / ΔE_M^{tot}'
 set format y '10^{%T}'
-set xtics (0.19, 0.375, 0.53, 0.75, 1.06, 1.5, 2.1, 2.4)
-set xrange [0.17:2.7]
+set xtics (0.1, 0.19, 0.375, 0.53, 0.75, 1.06, 1.5, 2)
+set xrange [0.09:2.3]
 set key noenhanced
 # Slopes where there is room: between the largest errors and the middle ones.
 stats table using (column('cfl') > 0.5 && column('cfl') < 0.8 ? column('balance_error') : NaN) nooutput
