@@ -86,8 +86,8 @@ function all_levels(    i, j, k, level, own, time, last, best, fastest) {
       for (i = 1; i <= runs; i++) {
          if (method[i] != base || error[i, k] == "none" || !(error[i, k] > 0)) continue
          level = last ? sqrt(last*error[i, k]) : 1
-         if (level < 1 && error[i, k] < last) {
-            own = time_for(base, k, level)
+         own = level < 1 && error[i, k] < last ? time_for(base, k, level) : 0
+         if (own > 0) {   # less: a coarser run than these two was better by chance
             printf "| %s | %s | %.1e | %.3g |", scene, kind[k], level, own
             best = 1; fastest = base
             for (j = 1; j <= n_methods; j++) {
