@@ -13,6 +13,7 @@ module domain_check
    ! Apart from this much of dx, in diameters of the kernel: images of walls reach half of one and have no images; between
    ! periodic sides a particle meets no other twice.
    real(dp), parameter :: wall_diameters = 0.5_dp, wall_room = 1.0_dp, period_diameters = 1.0_dp, period_room = 2.0_dp
+   real(dp), parameter :: slack = 1.0e-9_dp   ! relative; rounding of the input
 
 contains
 
@@ -95,7 +96,7 @@ contains
 
       character(*), parameter :: words(2) = [character(8) :: 'narrower', 'lower']
 
-      if (extent >= least*setup%spacing()) return
+      if (extent >= least*setup%spacing()*(1.0_dp - slack)) return
       call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is '//trim(words(axis))//' than ' &
                          //short(least*setup%spacing())//', '//short(least)//' dx between '//trim(side_names(2*axis - 1))//' and ' &
                          //trim(side_names(2*axis))//' '//what//': raise the resolution or move them apart')
