@@ -112,7 +112,7 @@ contains
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
-      if (scene%fluid%find_reference_speed) call find_reference_speed(scene, log, problem)
+      if (scene%fluid%find_reference_speed) call find_and_check(options, scene, warnings, log, problem)
       if (.not. problem%raised()) then
          input_text = echo_text(scene)
          call write_whole_file(directory%file(input_name), input_text, problem)
@@ -127,6 +127,30 @@ contains
       ! A run that could not start leaves nothing behind.
       if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory
+
+   !> Finds the reference speed, and reads the scene again with it: so far it was checked with a guess.
+   subroutine find_and_check(options, scene, told, log, problem)
+      type(command_line_t), intent(in) :: options
+      type(settings_t), intent(inout) :: scene   !! find_reference_speed is .true.; on return with the speed found
+      character(*), intent(in) :: told(:)        !! warnings
+      type(log_t), intent(inout) :: log
+      type(failure), intent(inout) :: problem    !! exit_numerics: a coarse run failed; exit_input
+      character(:), allocatable :: overrides(:), warnings(:), found
+      integer :: k, n
+
+      call find_reference_speed(scene, log, problem)
+      if (problem%raised()) return
+      found = 'fluid.reference_speed='//to_text(scene%fluid%reference_speed)
+      n = size(options%overrides)
+      allocate (character(max(len(found), len(options%overrides))) :: overrides(n + 1))
+      overrides(:n) = options%overrides
+      overrides(n + 1) = found
+      call read_settings(options%scene, overrides, scene, warnings, problem)
+      if (problem%raised()) return
+      do k = 1, size(warnings)
+         if (.not. any(told == warnings(k))) call log%warn('input '//to_text(size(told) + k), trim(warnings(k)))
+      end do
+   end subroutine find_and_check
 
    !> --output, or results/ and the name of the scene file.
    function output_directory(options) result(path)
