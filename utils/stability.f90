@@ -30,7 +30,7 @@ program stability
    type(options_t) :: given
    type(failure) :: problem
    type(wave_t) :: waves(across*(across + 3)/2)
-   real(dp) :: cfl, theory
+   real(dp) :: cfl, theory, edge
 
    call declare_options(given)
    call given%parse(arguments(), problem)
@@ -53,9 +53,10 @@ program stability
          theory = growth(waves, model%integrator, model%frozen, delta, alpha, cfl)
          write (output_unit, '(3f9.4, 2f11.6)') delta, alpha, cfl, theory, measured_growth(cfl)
       else
-         write (output_unit, '(a)') '# delta, alpha, largest stable cfl by theory, measured'
          theory = stable_cfl(waves, model%integrator, model%frozen, delta, alpha)
-         write (output_unit, '(2f9.4, 2f11.5)') delta, alpha, theory, measured_edge(theory)
+         edge = measured_edge(theory)
+         write (output_unit, '(a)') '# delta, alpha, largest stable cfl by theory, measured'
+         if (.not. problem%raised()) write (output_unit, '(2f9.4, 2f11.5)') delta, alpha, theory, edge
       end if
    end associate
    call end_program(problem)
@@ -88,8 +89,8 @@ contains
       if (size(list%files) > 0) call problem%raise(exit_input, 'dynsph-stability: there is no '//trim(list%files(1))// &
                                                    '; --help lists the options')
       if (problem%raised()) return
-      if (.not. min(scene%model%delta, scene%model%alpha) >= 0) call problem%raise(exit_input, &
-         'dynsph-stability: --delta and --alpha must be at least 0')
+      if (.not. (min(scene%model%delta, scene%model%alpha) >= 0 .and. max(scene%model%delta, scene%model%alpha) <= 1000)) &
+         call problem%raise(exit_input, 'dynsph-stability: --delta and --alpha must be from 0 to 1000')
       if (.not. (scene%model%smoothing_ratio >= 1.2_dp .and. scene%model%smoothing_ratio <= 4)) &
          call problem%raise(exit_input, 'dynsph-stability: --smoothing-ratio must be from 1.2 to 4')
       scene%time%integrator = list%word('--integrator')
@@ -194,7 +195,7 @@ contains
    end function disturbance
 
    function arguments() result(words)
-      character(32), allocatable :: words(:)
+      character(256), allocatable :: words(:)
       integer :: i
 
       allocate (words(command_argument_count()))
