@@ -149,7 +149,9 @@ contains
          limit = stability%largest_cfl(delta, 0.0_dp)
          if (.not. limit > 0.0_dp) then
             call notes%mistake(document%place_of('time', 1, 'integrator'), 'time', '&time integrator = ' &
-                               //quoted(setup%time%integrator)//' is unstable without a constant alpha or delta; use rk4')
+                               //quoted(setup%time%integrator)//' is stable to cfl = 0.2 at least only where a constant ' &
+                               //'alpha or delta damps sound, here '//short(setup%alpha_total())//' and '//short(delta) &
+                               //': use rk4')
          else if (cfl > limit*(1.0_dp + slack)) then
             what = 'the limit of '//trim(setup%time%integrator)//' is '//rounded_down(limit)
             if (limit < stability%sound) what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &

@@ -22,10 +22,12 @@ module linear_stability
    !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on
    !! (docs/equations.md).
    real(dp), parameter :: viscous_margin = 0.5365_dp
+   !> Below this cfl the growth of undamped sound in rk2 is lost in what `stable_cfl` counts as none.
+   real(dp), parameter :: least_damped_cfl = 0.2_dp
 
    !> Largest stable Courant numbers.
    type :: stability_t
-      real(dp) :: sound = 0         !! of sound waves
+      real(dp) :: sound = 0         !! of sound waves; 0: they grow whatever the step
       real(dp) :: times_delta = 0   !! times the largest delta_i
       real(dp) :: times_alpha = 0   !! times the largest alpha_i, that of the viscosity included
    contains
@@ -42,7 +44,7 @@ contains
       real(dp), intent(in) :: delta   !! that acts at least everywhere: rk2 lives by it
       real(dp), intent(in) :: alpha   !! the same
       type(wave_t) :: waves(waves_along*(waves_along + 3)/2)
-      real(dp) :: rates(3), negative
+      real(dp) :: rates(3), negative, damped
 
       waves = lattice_waves(ratio, waves_along)
       rates = fastest_rates(waves)
@@ -50,8 +52,9 @@ contains
       if (frozen) negative = frozen_negative
       if (integrator%imaginary > 0) then
          self%sound = sound_margin*integrator%imaginary/rates(1)
-      else if (delta > 0 .or. alpha > 0) then
-         self%sound = sound_margin*stable_cfl(waves, integrator, frozen, delta, alpha)
+      else
+         damped = stable_cfl(waves, integrator, frozen, delta, alpha)
+         if (damped > least_damped_cfl) self%sound = sound_margin*damped
       end if
       self%times_delta = diffusion_margin*negative/rates(2)
       self%times_alpha = viscous_margin*negative/rates(3)
