@@ -22,6 +22,7 @@ module time_step
    public :: step_t, refresh, advance, start_extremes
 
    integer, parameter :: block_clusters = 64   !! clusters that a thread takes at a time, and that sums go over
+   real(dp), parameter :: grown = 1.01_dp      !! times its limit: a step that the margins of the limits still cover
    integer, parameter, public :: phase_sort = 1, phase_gradients = 2, phase_diffusion = 3, phase_stages = 4
 
    !> What steps leave behind: time, counts, sums and extremes.
@@ -32,7 +33,7 @@ module time_step
       integer(i8) :: crossings = 0          !! particles put back behind a wall
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
       integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
-      integer(i8) :: repeated = 0           !! steps repeated with a larger search margin
+      integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
       real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
@@ -116,21 +117,29 @@ contains
       real(dp), intent(in) :: last_time
       type(timers_t), intent(inout) :: timers
       type(block_t), allocatable :: blocks(:)
+      real(dp) :: at_most
       logical :: strayed
 
+      at_most = last_time - run%time
       do
          allocate (blocks((near%n_clusters + block_clusters - 1)/block_clusters))
          call timers%start(phase_gradients)
          call first_sums(model, p, near, blocks)
          call timers%stop(phase_gradients)
-         run%dt = min(stable_step(model, blocks), last_time - run%time)
+         run%dt = min(stable_step(model, blocks), at_most)
          if (run%dt - near%tau <= near%image_travel) then
             call stages(model, p, near, run%dt, blocks, timers, strayed)
-            if (.not. strayed) exit
+            if (strayed) then
+               near%slack = 2*near%stray
+            else
+               ! Terms that are not frozen: the coefficients of the later stages are known now.
+               at_most = min(at_most, stable_step(model, blocks))
+               if (.not. run%dt > grown*at_most) exit
+            end if
             run%repeated = run%repeated + 1
-            near%slack = 2*near%stray
          end if
-         ! The step is much longer than expected, or accelerations led some particle too far: with better margins again.
+         ! The step is much longer than expected, accelerations led some particle too far, or alpha_i and delta_i grew: again,
+         ! with better margins.
          deallocate (blocks)
          call sort_again(model, p, near, run, timers)
          if (run%scattered) return
@@ -302,6 +311,8 @@ contains
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, p%stage(spare))
       blocks%wall_power = blocks%wall_power + model%integrator%weight(stage)*of_stage%wall_power
+      blocks%largest_alpha = max(blocks%largest_alpha, of_stage%largest_alpha)
+      blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
       !$omp parallel do default(none) shared(model, p, near, stage, spare, dt, blocks) private(c, i0, rates) schedule(dynamic)
       do b = 1, size(blocks)
          do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
