@@ -4,10 +4,11 @@ module text
    implicit none
    private
 
-   public :: to_text, short, parse_real, parse_integer, lower_case, quoted, nearest_word
+   public :: to_text, short, rounded_down, rounded_up, parse_real, parse_integer, lower_case, quoted, nearest_word
 
    integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
+   real(dp), parameter :: slack = 1.0e-9_dp ! of a digit: rounding of the number
    integer, parameter :: full_digits = 17   ! enough to give every real(dp) back bit by bit
 
    !> A number as text, without blanks; a real in the fewest digits that read back exactly.
@@ -327,5 +328,40 @@ contains
          if (words(1:2) == '-.') words = '-0'//words(2:)
       end if
    end function short
+
+   !> A number rounded down to four digits, so that a limit can be copied from a message; 0 if it is not positive.
+   pure function rounded_down(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = four_digits(real(floor(number/fourth_digit(number) + slack), dp)*fourth_digit(number))
+   end function rounded_down
+
+   !> The same rounded up.
+   pure function rounded_up(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = four_digits(real(ceiling(number/fourth_digit(number) - slack), dp)*fourth_digit(number))
+   end function rounded_up
+
+   ! What the fourth digit counts.
+   pure real(dp) function fourth_digit(number)
+      real(dp), intent(in) :: number
+
+      fourth_digit = 10.0_dp**(floor(log10(max(number, tiny(number)))) - 3)
+   end function fourth_digit
+
+   pure function four_digits(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      character(24) :: buffer
+      real(dp) :: rounded
+
+      write (buffer, '(es24.3e3)') max(number, 0.0_dp)
+      read (buffer, *) rounded
+      words = to_text(rounded)
+   end function four_digits
 
 end module text

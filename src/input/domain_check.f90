@@ -4,7 +4,7 @@ module domain_check
    use kinds, only: dp
    use namelist_document, only: document_t
    use settings, only: choice_length, is_wall, settings_t, side_names
-   use text, only: quoted, short, to_text
+   use text, only: quoted, rounded_up, short, to_text
    implicit none
    private
 
@@ -98,8 +98,9 @@ contains
 
       if (extent >= least*setup%spacing()*(1.0_dp - slack)) return
       call notes%mistake(document%place_of('domain', 1, 'upper'), 'domain', '&domain is '//trim(words(axis))//' than ' &
-                         //short(least*setup%spacing())//', '//short(least)//' dx between '//trim(side_names(2*axis - 1))//' and ' &
-                         //trim(side_names(2*axis))//' '//what//': raise the resolution or move them apart')
+                         //rounded_up(least*setup%spacing())//', '//short(least)//' dx between ' &
+                         //trim(side_names(2*axis - 1))//' and '//trim(side_names(2*axis))//' '//what &
+                         //': raise the resolution or move them apart')
    end subroutine check_room
 
    !> Where bottom and top are one line, fluid with weight would fall for ever; a central field would jump there.

@@ -15,7 +15,7 @@ module settings_check
    use output_check, only: check_output
    use scene_keys, only: largest_mach
    use settings, only: settings_t
-   use text, only: quoted, short, to_text
+   use text, only: quoted, rounded_down, rounded_up, short, to_text
    implicit none
    private
 
@@ -227,7 +227,7 @@ contains
       else
          factor = (alpha - by_model)/(room - by_model)
          advice = 'not so with &scene resolution below '//rounded_down(setup%scene%resolution/factor) &
-                  //' or a sound speed above '//short(setup%fluid%sound_speed*factor)
+                  //' or a sound speed above '//rounded_up(setup%fluid%sound_speed*factor)
       end if
       ! alpha = 8 nu/(c0 h): the limit of alpha is one of dt nu/h**2.
       call beyond_limit(setup, place, 'with alpha = '//short(alpha)//', viscosity included, the viscous limit dt <= ' &
@@ -235,31 +235,6 @@ contains
                         //rounded_down(stability%times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice, &
                         notes)
    end subroutine check_viscosity
-
-   !> A number rounded down to four digits, so that a limit can be copied from a message.
-   pure function rounded_down(number) result(words)
-      real(dp), intent(in) :: number
-      character(:), allocatable :: words
-
-      real(dp) :: digit
-
-      digit = 10.0_dp**(floor(log10(max(number, tiny(number)))) - 3)
-      words = to_text(0.0_dp)
-      if (number > 0.0_dp) words = trimmed_number(floor(number/digit + slack)*digit)
-   end function rounded_down
-
-   !> A number to four digits, as text.
-   pure function trimmed_number(number) result(words)
-      real(dp), intent(in) :: number
-      character(:), allocatable :: words
-
-      character(24) :: buffer
-      real(dp) :: rounded
-
-      write (buffer, '(es24.3e3)') number
-      read (buffer, *) rounded
-      words = to_text(rounded)
-   end function trimmed_number
 
    !> A run that cannot end is a slip: with more steps than can be counted, time would not even get on by one.
    subroutine check_step_number(document, setup, notes)
@@ -278,10 +253,24 @@ contains
       per_step = cfl*setup%smoothing_length()/setup%fluid%sound_speed
       if (setup%time%end_time <= most_steps*per_step) return
       advice = 'raise cfl, or lower end_time or the sound speed '//short(setup%fluid%sound_speed)
-      if (cfl < setup%time%cfl) advice = 'lower the viscosity, which makes them so short, or end_time'
+      if (cfl < setup%time%cfl) advice = 'lower '//shortening_key(setup)//', which makes them so short, or end_time'
       call notes%mistake(document%place_of('time', 1, 'end_time'), 'time', '&time end_time = '//to_text(setup%time%end_time) &
                          //' is more than '//to_text(most_steps)//' steps of '//short(per_step)//': '//advice)
    end subroutine check_step_number
+
+   ! What limits the step most.
+   function shortening_key(setup) result(words)
+      type(settings_t), intent(in) :: setup
+      character(:), allocatable :: words
+
+      type(stability_t) :: stability
+
+      stability = stability_of(setup)
+      words = 'the viscosity'
+      if (setup%model%diffusion == 'constant' .and. 2.0_dp*setup%model%alpha > setup%alpha_total()) words = 'alpha of &model'
+      if (stability%largest_cfl(constant_delta(setup), 0.0_dp) < stability%largest_cfl(0.0_dp, setup%alpha_total())) &
+         words = 'delta of &model'
+   end function shortening_key
 
    !> All particles must fit.
    subroutine check_particle_number(document, setup, notes)
