@@ -18,17 +18,18 @@ module diffusion
 contains
 
    !> The viscous acceleration, eq. 5 with eq. 7.
-   pure subroutine freeze_viscosity(model, sums, p, i0)
+   pure subroutine freeze_viscosity(model, viscous_x, viscous_y, p, i0)
       type(model_t), intent(in) :: model
-      type(gradient_sums_t), intent(in) :: sums
+      real(dp), intent(in) :: viscous_x(nl)   !! sum_j pi_ij x_ji t**3 V_j
+      real(dp), intent(in) :: viscous_y(nl)
       type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the cluster are set
       integer, intent(in) :: i0               !! slot before the cluster's first
       real(dp) :: factor(nl)
 
       factor = model%alpha*model%kernel%h*model%c0*model%kernel%gradient_factor &
                *model%rho0/(model%rho0 + p%base%s(i0 + 1:i0 + nl))
-      p%visc_x(i0 + 1:i0 + nl) = factor*sums%viscous_x
-      p%visc_y(i0 + 1:i0 + nl) = factor*sums%viscous_y
+      p%visc_x(i0 + 1:i0 + nl) = factor*viscous_x
+      p%visc_y(i0 + 1:i0 + nl) = factor*viscous_y
    end subroutine freeze_viscosity
 
    !> G of eq. 6, and the part of the density diffusion that needs no neighbour's gradient.

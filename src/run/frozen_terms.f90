@@ -9,7 +9,6 @@ module frozen_terms
    use flow, only: as_flow_sums, flow_rates, rates_t
    use flow_sums, only: flow_sums_t
    use gradient_sums, only: gradient_sums_t, sum_gradients
-   use inviscid_sums, only: sum_inviscid
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
@@ -18,6 +17,7 @@ module frozen_terms
    use particles, only: particles_t
    use runge_kutta, only: block_t
    use strain_sums, only: strain_sums_t, sum_strain
+   use viscous_sums, only: sum_viscous
    implicit none
    private
 
@@ -36,15 +36,15 @@ contains
 
       if (model%dynamic) then
          call begin_dynamic(model, p, near, c, block)
-      else if (p%features%viscosity .or. p%features%diffusion) then
+      else if (p%features%diffusion) then
          call begin_constant(model, p, near, c, block)
       else
-         call begin_inviscid(model, p, near, c, block)
+         call begin_viscous(model, p, near, c, block)
       end if
    end subroutine begin_frozen_terms
 
-   ! With no diffusive term: the rates alone.
-   subroutine begin_inviscid(model, p, near, c, block)
+   ! Without density diffusion: no gradients.
+   subroutine begin_viscous(model, p, near, c, block)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
@@ -52,17 +52,18 @@ contains
       type(block_t), intent(inout) :: block
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
-      real(dp) :: largest_pi(nl)
+      real(dp) :: viscous_x(nl), viscous_y(nl), largest_pi(nl)
       integer :: i0
 
       i0 = (c - 1)*nl
-      call sum_inviscid(model%kernel, near%ranges(c), p%base, p%owner, i0, sums, largest_pi)
+      call sum_viscous(model%kernel, near%ranges(c), p%base, p%owner, i0, sums, viscous_x, viscous_y, largest_pi)
       call flow_rates(model, p%base, i0, sums, rates)
       call keep_rates(p, i0, rates)
+      if (p%features%viscosity) call freeze_viscosity(model, viscous_x, viscous_y, p, i0)
       block%largest_pi = max(block%largest_pi, maxval(largest_pi))
-   end subroutine begin_inviscid
+   end subroutine begin_viscous
 
-   ! With constant coefficients.
+   ! With density diffusion, coefficients constant.
    subroutine begin_constant(model, p, near, c, block)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -77,11 +78,9 @@ contains
       call sum_gradients(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
       call flow_rates(model, p%base, i0, as_flow_sums(sums, p%base, i0), rates)
       call keep_rates(p, i0, rates)
-      if (p%features%viscosity) call freeze_viscosity(model, sums, p, i0)
-      if (model%delta > 0) then
-         call freeze_gradient(model, sums, p, i0, singular)
-         block%singular = block%singular + singular
-      end if
+      if (p%features%viscosity) call freeze_viscosity(model, sums%viscous_x, sums%viscous_y, p, i0)
+      call freeze_gradient(model, sums, p, i0, singular)
+      block%singular = block%singular + singular
       block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi))
    end subroutine begin_constant
 
@@ -133,7 +132,7 @@ contains
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%ranges(c), p, model%alpha, i0, eddy)
          call freeze_eddy_terms(model, eddy, p, i0)
-      else if (model%delta > 0) then
+      else if (p%features%diffusion) then
          call sum_diffusion(model%kernel, near%ranges(c), p, i0, neighbour_gradient)
          call freeze_density_diffusion(model, neighbour_gradient, p, i0)
       end if

@@ -84,7 +84,7 @@ contains
       call sum_flow(model%kernel, near%ranges(c), p%base, i0, flow)
       first = as_flow_sums(sums, p%base, i0)
       call flow_rates(model, p%base, i0, flow, rates)
-      call freeze_viscosity(model, sums, p, i0)
+      call freeze_viscosity(model, sums%viscous_x, sums%viscous_y, p, i0)
       call freeze_gradient(model, sums, p, i0, singular)
       found%singular = found%singular + singular
       associate (f => model%kernel%gradient_factor)
