@@ -13,7 +13,7 @@ module scene_input
    implicit none
    private
 
-   public :: read_settings, read_settings_text
+   public :: load_scene, read_settings, read_settings_text
    public :: write_echo, echo_text, write_shortest, write_template, write_markdown
 
 contains
@@ -27,17 +27,28 @@ contains
       character(:), allocatable, intent(out) :: warnings(:)
       type(failure), intent(inout) :: problem
 
-      character(:), allocatable :: content, message
+      character(:), allocatable :: content
 
-      call load_file(path, content, message)
-      if (message /= '') then
+      call load_scene(path, content, problem)
+      if (problem%raised()) then
          allocate (character(1) :: warnings(0))
          allocate (setup%bodies(0), setup%probes(0), setup%gauges(0))
-         call problem%raise(exit_files, path//': '//message)
          return
       end if
       call read_settings_text(content, path, overrides, setup, warnings, problem)
    end subroutine read_settings
+
+   !> The text of a scene's file. Raises exit_files.
+   subroutine load_scene(path, content, problem)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: content
+      type(failure), intent(inout) :: problem
+
+      character(:), allocatable :: message
+
+      call load_file(path, content, message)
+      if (message /= '') call problem%raise(exit_files, path//': '//message)
+   end subroutine load_scene
 
    !> Reads a scene from namelist text.
    !! Raises exit_input with all mistakes in it.

@@ -209,6 +209,8 @@ contains
       character(:), allocatable :: advice
 
       if (.not. all([notes%clean('time'), notes%clean('model'), notes%clean('fluid'), notes%clean('scene')])) return
+      ! With a sound speed that is a guess so far: when it is known.
+      if (setup%fluid%find_reference_speed) return
       alpha = setup%alpha_total()
       by_model = 0.0_dp
       if (setup%model%diffusion == 'constant') by_model = setup%model%alpha

@@ -11,7 +11,7 @@ program main
    use report, only: estimate, start_box
    use result_directory, only: input_name, log_name, result_directory_t
    use run_log, only: log_t
-   use scene_input, only: echo_text, read_settings, write_markdown, write_shortest, write_template
+   use scene_input, only: echo_text, load_scene, read_settings_text, write_markdown, write_shortest, write_template
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
@@ -67,17 +67,19 @@ contains
       type(settings_t) :: scene
       type(model_t) :: model
       type(log_t) :: screen
-      character(:), allocatable :: warnings(:)
+      character(:), allocatable :: content, warnings(:)
       integer :: k
 
-      call read_settings(options%scene, options%overrides, scene, warnings, problem)
+      call load_scene(options%scene, content, problem)
+      if (problem%raised()) return
+      call read_settings_text(content, options%scene, options%overrides, scene, warnings, problem)
       if (problem%raised()) return
       if (options%shortest) then
          call write_shortest(output_unit, scene)
          return
       end if
       if (.not. options%check) then
-         call run_into_directory(options, scene, warnings, problem)
+         call run_into_directory(options, content, scene, warnings, problem)
          return
       end if
       call screen%open('', options%quiet, problem)
@@ -91,8 +93,9 @@ contains
       call screen%line(options%scene//' is valid; nothing was run')
    end subroutine run_scene
 
-   subroutine run_into_directory(options, scene, warnings, problem)
+   subroutine run_into_directory(options, content, scene, warnings, problem)
       type(command_line_t), intent(in) :: options
+      character(*), intent(in) :: content        !! of the scene's file
       type(settings_t), intent(inout) :: scene   !! on return with the reference speed that was used
       character(*), intent(in) :: warnings(:)
       type(failure), intent(inout) :: problem
@@ -112,7 +115,7 @@ contains
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
-      if (scene%fluid%find_reference_speed) call find_and_check(options, scene, warnings, log, problem)
+      if (scene%fluid%find_reference_speed) call find_and_check(options, content, scene, warnings, log, problem)
       if (.not. problem%raised()) then
          input_text = echo_text(scene)
          call write_whole_file(directory%file(input_name), input_text, problem)
@@ -128,9 +131,10 @@ contains
       if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory
 
-   !> Finds the reference speed, and reads the scene again with it: so far it was checked with a guess.
-   subroutine find_and_check(options, scene, told, log, problem)
+   !> Finds the reference speed, and checks the scene with it: so far it was checked with a guess.
+   subroutine find_and_check(options, content, scene, told, log, problem)
       type(command_line_t), intent(in) :: options
+      character(*), intent(in) :: content        !! of the scene's file
       type(settings_t), intent(inout) :: scene   !! find_reference_speed is .true.; on return with the speed found
       character(*), intent(in) :: told(:)        !! warnings
       type(log_t), intent(inout) :: log
@@ -145,7 +149,7 @@ contains
       allocate (character(max(len(found), len(options%overrides))) :: overrides(n + 1))
       overrides(:n) = options%overrides
       overrides(n + 1) = found
-      call read_settings(options%scene, overrides, scene, warnings, problem)
+      call read_settings_text(content, options%scene, overrides, scene, warnings, problem)
       if (problem%raised()) return
       do k = 1, size(warnings)
          if (.not. any(told == warnings(k))) call log%warn('input '//to_text(size(told) + k), trim(warnings(k)))
