@@ -10,20 +10,25 @@ module linear_stability
    implicit none
    private
 
-   public :: stability_t, new_stability
+   public :: stability_t, new_stability, margins_t, safe_margins
 
    integer, parameter :: waves_along = 24        ! wave numbers looked at, along an axis
    real(dp), parameter :: frozen_negative = 2    ! Euler's limit
-   !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop has lost its
-   !! energy balance at 0.95 and a dam break at 0.90 of it, not at 0.84 (docs/equations.md).
-   real(dp), parameter :: sound_margin = 0.84_dp
-   !> In disordered fluid the kernel sum, and with it the rate of diffusion, is up to 1.3 times the lattice's (docs/equations.md).
-   real(dp), parameter :: diffusion_margin = 0.6808_dp
-   !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on
-   !! (docs/equations.md).
-   real(dp), parameter :: viscous_margin = 0.5365_dp
+   real(dp), parameter :: few_neighbours = 1.33_dp   ! h/dx
    !> Below this cfl the growth of undamped sound in rk2 is lost in what `stable_cfl` counts as none.
    real(dp), parameter :: least_damped_cfl = 0.2_dp
+
+   !> Shares of a lattice's limits that are used: disordered fluid is less stable. Found in flows by utils/studies/margins
+   !! (docs/equations.md).
+   type :: margins_t
+      !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop has lost its
+      !! energy balance at 0.95 and a dam break at 0.90 of it, not at 0.84.
+      real(dp) :: sound = 0.84_dp
+      !> In disordered fluid the kernel sum, and with it the rate of diffusion, is up to 1.3 times the lattice's.
+      real(dp) :: diffusion = 0.6808_dp
+      !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on.
+      real(dp) :: viscous = 0.5365_dp
+   end type margins_t
 
    !> Largest stable Courant numbers.
    type :: stability_t
@@ -37,28 +42,40 @@ module linear_stability
 contains
 
    !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.09, 0.2 and 0.5.
-   pure type(stability_t) function new_stability(integrator, frozen, ratio, delta, alpha) result(self)
+   pure type(stability_t) function new_stability(integrator, frozen, ratio, delta, alpha, margins) result(self)
       type(integrator_t), intent(in) :: integrator
       logical, intent(in) :: frozen   !! diffusive terms are held over the step
       real(dp), intent(in) :: ratio   !! h/dx
       real(dp), intent(in) :: delta   !! that acts at least everywhere: rk2 lives by it
       real(dp), intent(in) :: alpha   !! the same
+      type(margins_t), intent(in), optional :: margins   !! other than the safe ones
+      type(margins_t) :: share
       type(wave_t) :: waves(waves_along*(waves_along + 3)/2)
       real(dp) :: rates(3), negative, damped
 
+      share = safe_margins(ratio)
+      if (present(margins)) share = margins
       waves = lattice_waves(ratio, waves_along)
       rates = fastest_rates(waves)
       negative = integrator%negative
       if (frozen) negative = frozen_negative
       if (integrator%imaginary > 0) then
-         self%sound = sound_margin*integrator%imaginary/rates(1)
+         self%sound = share%sound*integrator%imaginary/rates(1)
       else
          damped = stable_cfl(waves, integrator, frozen, delta, alpha)
-         if (damped > least_damped_cfl) self%sound = sound_margin*damped
+         if (damped > least_damped_cfl) self%sound = share%sound*damped
       end if
-      self%times_delta = diffusion_margin*negative/rates(2)
-      self%times_alpha = viscous_margin*negative/rates(3)
+      self%times_delta = share%diffusion*negative/rates(2)
+      self%times_alpha = share%viscous*negative/rates(3)
    end function new_stability
+
+   !> The margins in use.
+   elemental type(margins_t) function safe_margins(ratio) result(margins)
+      real(dp), intent(in) :: ratio   !! h/dx
+
+      margins = margins_t()
+      if (ratio < few_neighbours) margins%diffusion = 0.55_dp
+   end function safe_margins
 
    !> Largest Courant number dt c0/h that is safe: min(sound, times_delta/delta, times_alpha/alpha).
    elemental real(dp) function largest_cfl(self, delta, alpha)

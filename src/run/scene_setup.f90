@@ -7,7 +7,7 @@ module scene_setup
    use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp
-   use linear_stability, only: new_stability
+   use linear_stability, only: margins_t, new_stability
    use model, only: model_t
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
@@ -19,8 +19,9 @@ module scene_setup
 contains
 
    !> The constants in paper symbols.
-   pure type(model_t) function set_up_model(scene) result(model)
+   pure type(model_t) function set_up_model(scene, margins) result(model)
       type(settings_t), intent(in) :: scene   !! checked input
+      type(margins_t), intent(in), optional :: margins   !! of the step rule, other than the safe ones
 
       model%dx = scene%spacing()
       model%kernel = new_kernel(scene%smoothing_length())
@@ -41,7 +42,8 @@ contains
       end if
       model%integrator = new_integrator(scene%time%integrator)
       model%frozen = scene%time%diffusion == 'frozen'
-      model%stability = new_stability(model%integrator, model%frozen, scene%model%smoothing_ratio, model%delta, model%alpha)
+      model%stability = new_stability(model%integrator, model%frozen, scene%model%smoothing_ratio, &
+                                      model%delta, model%alpha, margins)
       ! Eq. 8 shortens steps by a factor: it must start from what is stable.
       model%cfl = min(scene%time%cfl, model%stability%sound)
    end function set_up_model

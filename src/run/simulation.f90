@@ -12,7 +12,7 @@ module simulation
    use report, only: closing_table, estimate, start_box, write_summary_file
    use result_directory, only: result_directory_t, summary_name
    use run_log, only: log_t
-   use scene_setup, only: set_up_model, set_up_particles
+   use scene_setup, only: set_up_particles
    use settings, only: settings_t
    use step_check, only: check_step
    use text, only: short
@@ -31,14 +31,14 @@ module simulation
 contains
 
    !> Runs a checked scene and writes its results.
-   subroutine simulate(scene, input_text, directory, log, began, problem)
+   subroutine simulate(scene, model, input_text, directory, log, began, problem)
       type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model       !! of the scene
       character(*), intent(in) :: input_text   !! complete input
       type(result_directory_t), intent(in) :: directory
       type(log_t), intent(inout) :: log
       logical, intent(out) :: began             !! there are results to keep
       type(failure), intent(inout) :: problem   !! exit_numerics, exit_files
-      type(model_t) :: model
       type(particles_t) :: p
       type(neighbours_t) :: near
       type(step_t) :: run
@@ -51,7 +51,6 @@ contains
       began = .false.
       started = wall_seconds()
       call timers%initialise(phases)
-      model = set_up_model(scene)
       call set_up_particles(scene, model, p)
       call start_box(log, scene, model, estimate(scene, model, p%n))
       call refresh(model, p, near, run, timers)

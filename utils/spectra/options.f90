@@ -17,6 +17,7 @@ module options
       character(value_length) :: value = ''     !! what the user said, else the default
       character(value_length) :: meaning = ''
       logical :: given = .false.                !! the user said it
+      character(value_length), allocatable :: all(:)   !! all that the user said, in its order
    end type option_t
 
    !> What a command takes and what the user gave it.
@@ -31,6 +32,7 @@ module options
       procedure :: write_help
       procedure :: given
       procedure :: word
+      procedure :: words
       procedure :: real_number
       procedure :: check_choice
       procedure, private :: place
@@ -99,6 +101,8 @@ contains
       if (len_trim(value) > value_length) call problem%raise(exit_input, trim(option%name)//' is too long: at most ' &
                                                              //to_text(value_length)//' letters')
       option%value = value
+      if (.not. option%given) allocate (option%all(0))
+      option%all = [option%all, option%value]
       option%given = .true.
    end subroutine take
 
@@ -160,6 +164,16 @@ contains
 
       word = trim(self%list(self%place(name))%value)
    end function word
+
+   !> All its values, for an option that may be there more than once.
+   pure function words(self, name)
+      class(options_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(value_length), allocatable :: words(:)
+
+      allocate (words(0))
+      if (self%given(name)) words = self%list(self%place(name))%all
+   end function words
 
    !> Its value as a number; raises exit_input if it is none.
    real(dp) function real_number(self, name, problem)
