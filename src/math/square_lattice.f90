@@ -9,7 +9,7 @@ module square_lattice
    implicit none
    private
 
-   public :: shear_coefficient, compression_coefficient, sound_t, lattice_sound
+   public :: lattice_crowd, shear_coefficient, compression_coefficient, sound_t, lattice_sound
 
    !> How a plane sound wave travels on the lattice.
    type :: sound_t
@@ -19,6 +19,20 @@ module square_lattice
    end type sound_t
 
 contains
+
+   !> sum_j (1 - r/(2h))**3 over the others within 2h: what F_ij V_j sums up to, but for factors.
+   pure real(dp) function lattice_crowd(ratio) result(total)
+      real(dp), intent(in) :: ratio   !! h/dx
+      integer :: i, j, n
+
+      n = ceiling(2*ratio)
+      total = -1
+      do j = -n, n
+         do i = -n, n
+            total = total + max(0.0_dp, 1 - norm2([real(i, dp), real(j, dp)])/(2*ratio))**3
+         end do
+      end do
+   end function lattice_crowd
 
    !> nu/(alpha h c0) of a transverse wave: sum_j (1 - cos k.r) (t.r)**2/r**2 F dx**2 / k**2, t normal to k.
    !!

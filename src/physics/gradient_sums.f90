@@ -27,6 +27,7 @@ module gradient_sums
       real(dp) :: kernel_y(nl)
       real(dp) :: viscous_x(nl)    !! sum_j pi_ij x_ji t**3 V_j
       real(dp) :: viscous_y(nl)
+      real(dp) :: crowd(nl)        !! sum_j t**3 V_j, the particle and its own images left out
       real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
    end type gradient_sums_t
 
@@ -51,7 +52,7 @@ contains
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), owner(n), inverse_support
       type(gradient_sums_t), intent(out) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
-      real(dp), dimension(nl) :: div, mxx, mxy, myy, bx, by, b0, kx, ky, fx, fy, pi_max
+      real(dp), dimension(nl) :: div, mxx, mxy, myy, bx, by, b0, kx, ky, fx, fy, crowd, pi_max
       real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du_dr, pi_ij, other, most
       integer :: k, j, l
 
@@ -72,6 +73,7 @@ contains
       ky = 0
       fx = 0
       fy = 0
+      crowd = 0
       pi_max = 0
       most = (2*inverse_support/closest)**2
       do k = 1, n_ranges
@@ -100,11 +102,12 @@ contains
                fx(l) = fx(l) + pi_ij*gx
                fy(l) = fy(l) + pi_ij*gy
                other = min(t, abs(owner(j) - oi(l)))
+               crowd(l) = crowd(l) + merge(g, 0.0_dp, other > 0)
                pi_max(l) = max(pi_max(l), merge(abs(du_dr)*min(inverse*inverse, most), 0.0_dp, other > 0))
             end do
          end do
       end do
-      sums = gradient_sums_t(div, mxx, mxy, myy, bx, by, b0, kx, ky, fx, fy, pi_max)
+      sums = gradient_sums_t(div, mxx, mxy, myy, bx, by, b0, kx, ky, fx, fy, crowd, pi_max)
    end subroutine lane_loop
 
 end module gradient_sums

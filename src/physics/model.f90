@@ -33,6 +33,7 @@ module model
       logical :: frozen = .true.      !! diffusive terms are held over the step
       type(stability_t) :: stability  !! what the step may be with it
       real(dp) :: cfl = 0             !! Courant number of eq. 8
+      real(dp) :: lattice_crowd = 0   !! sum_j t**3 V_j over the others on a square lattice, F = gradient_factor t**3
    contains
       procedure :: step_limit
       procedure :: advective_limit
@@ -49,7 +50,7 @@ contains
       class(model_t), intent(in) :: self
       real(dp), intent(in) :: largest_pi      !! over all pairs
       real(dp), intent(in) :: largest_alpha   !! largest alpha_i + alpha
-      real(dp), intent(in) :: largest_delta   !! largest delta_i, or delta
+      real(dp), intent(in) :: largest_delta   !! largest delta_i, or delta, times crowding
 
       step_limit = min(self%advective_limit(largest_pi), &
                        self%stability%largest_cfl(largest_delta, largest_alpha)*self%kernel%h/self%c0)

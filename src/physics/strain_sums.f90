@@ -27,6 +27,7 @@ module strain_sums
       real(dp) :: density_y(nl)
       real(dp) :: kernel_x(nl)     !! sum_j x_ji t**3 V_j: the sum of grad W
       real(dp) :: kernel_y(nl)
+      real(dp) :: crowd(nl)        !! sum_j t**3 V_j, the particle and its own images left out
       real(dp) :: largest_pi(nl)   !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
    end type strain_sums_t
 
@@ -51,7 +52,7 @@ contains
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), owner(n), inverse_support
       type(strain_sums_t), intent(out) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, oi
-      real(dp), dimension(nl) :: ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, pi_max
+      real(dp), dimension(nl) :: ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, crowd, pi_max
       real(dp) :: dx, dy, r, inverse, t, g, gx, gy, ds, du, dv, pi_ij, other, most
       integer :: k, j, l
 
@@ -72,6 +73,7 @@ contains
       by = 0
       kx = 0
       ky = 0
+      crowd = 0
       pi_max = 0
       most = (2*inverse_support/closest)**2
       do k = 1, n_ranges
@@ -102,11 +104,12 @@ contains
                pi_ij = (du*dx + dv*dy)*min(inverse*inverse, most)
                ! 1 for another particle within the support, else 0, without a branch: with one, nothing here is vectorised.
                other = min(1.0_dp, huge(1.0_dp)*min(t, abs(owner(j) - oi(l))))
+               crowd(l) = crowd(l) + other*g
                pi_max(l) = max(pi_max(l), other*abs(pi_ij))
             end do
          end do
       end do
-      sums = strain_sums_t(ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, pi_max)
+      sums = strain_sums_t(ux, uy, vx, vy, mxx, mxy, myy, bx, by, kx, ky, crowd, pi_max)
    end subroutine lane_loop
 
 end module strain_sums

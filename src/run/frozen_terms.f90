@@ -82,6 +82,7 @@ contains
       call freeze_gradient(model, sums, p, i0, singular)
       block%singular = block%singular + singular
       block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi))
+      block%largest_delta = max(block%largest_delta, model%delta*maxval(crowding(model, sums%crowd)))
    end subroutine begin_constant
 
    ! With the dynamic model.
@@ -104,8 +105,18 @@ contains
       block%singular = block%singular + singular
       block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi))
       block%largest_alpha = max(block%largest_alpha, maxval(p%alpha(i0 + 1:i0 + nl)))
-      block%largest_delta = max(block%largest_delta, maxval(p%delta(i0 + 1:i0 + nl)))
+      block%largest_delta = max(block%largest_delta, maxval(p%delta(i0 + 1:i0 + nl)*crowding(model, sums%crowd)))
    end subroutine begin_dynamic
+
+   ! The sum of F_ij V_j, to which the rate of density diffusion is proportional, over that of the lattice that its limit is for.
+   ! Where it is less, as at a surface, the step is not longer for it.
+   pure function crowding(model, crowd) result(k)
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: crowd(nl)
+      real(dp) :: k(nl)
+
+      k = max(1.0_dp, crowd/model%lattice_crowd)
+   end function crowding
 
    pure subroutine keep_rates(p, i0, rates)
       type(particles_t), intent(inout) :: p

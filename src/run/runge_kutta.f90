@@ -31,8 +31,8 @@ module runge_kutta
       real(dp) :: pressure = 0       !! max p/rho
       real(dp) :: largest_s = 0
       real(dp) :: largest_pi = 0
-      real(dp) :: largest_alpha = 0  !! alpha_i and delta_i of the dynamic model
-      real(dp) :: largest_delta = 0
+      real(dp) :: largest_alpha = 0  !! alpha_i of the dynamic model
+      real(dp) :: largest_delta = 0  !! delta_i, or delta, times crowding
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0

@@ -11,6 +11,7 @@ module scene_setup
    use model, only: model_t
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
+   use square_lattice, only: lattice_crowd
    implicit none
    private
 
@@ -25,6 +26,7 @@ contains
 
       model%dx = scene%spacing()
       model%kernel = new_kernel(scene%smoothing_length())
+      model%lattice_crowd = model%dx**2*lattice_crowd(scene%model%smoothing_ratio)
       model%c0 = scene%fluid%sound_speed
       model%rho0 = scene%fluid%density
       model%gravity = scene%fluid%gravity

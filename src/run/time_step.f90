@@ -157,7 +157,7 @@ contains
       type(block_t), intent(in) :: blocks(:)
 
       stable_step = model%step_limit(maxval(blocks%largest_pi), model%alpha + maxval(blocks%largest_alpha), &
-                                     max(model%delta, maxval(blocks%largest_delta)))
+                                     maxval(blocks%largest_delta))
    end function stable_step
 
    ! Sorts the unchanged base state again, for the step that is known now.

@@ -8,6 +8,7 @@ module patches
    use model, only: model_t
    use neighbours, only: list_ranges, neighbours_t, sort_particles
    use particles, only: allocate_particles, features_t, particles_t
+   use square_lattice, only: lattice_crowd
    implicit none
    private
 
@@ -51,6 +52,7 @@ contains
    type(model_t) function open_model() result(model)
       model%kernel = new_kernel(2*spacing)
       model%dx = spacing
+      model%lattice_crowd = spacing**2*lattice_crowd(2.0_dp)
       model%c0 = 10
       model%rho0 = 1.3_dp
       model%alpha = 0.03_dp
