@@ -18,12 +18,13 @@ module linear_stability
    !> Shares of a lattice's limits that are used: disordered fluid is less stable. Found in flows by utils/studies/margins
    !! (docs/equations.md).
    type :: margins_t
-      !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop has lost its
-      !! energy balance at 0.95 and a dam break at 0.90 of it, not at 0.84.
+      !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop and a
+      !! dam break lose their energy balance at 0.95 of it, not at 0.90.
       real(dp) :: sound = 0.84_dp
       !> In disordered fluid the kernel sum, and with it the rate of diffusion, is up to 1.3 times the lattice's.
       real(dp) :: diffusion = 0.6808_dp
-      !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on.
+      !> In disordered fluid with a free surface single particles run away at 0.85 of the lattice's viscous limit,
+      !! not at 0.75.
       real(dp) :: viscous = 0.5365_dp
    end type margins_t
 
