@@ -9,7 +9,7 @@ program margins
    use command_line, only: command_line_t
    use errors, only: end_program, exit_input, failure
    use kinds, only: dp
-   use linear_stability, only: margins_t, safe_margins
+   use linear_stability, only: margins_t
    use options, only: options_t
    use scene_input, only: load_scene, read_settings_text
    use scene_run, only: run_into_directory
@@ -65,7 +65,6 @@ contains
       if (problem%raised()) return
       call read_settings_text(content, as_dynsph%scene, as_dynsph%overrides, scene, warnings, problem)
       if (problem%raised()) return
-      shares = safe_margins(scene%model%smoothing_ratio)
       call take('--sound', shares%sound)
       call take('--diffusion', shares%diffusion)
       call take('--viscous', shares%viscous)

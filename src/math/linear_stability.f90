@@ -10,30 +10,30 @@ module linear_stability
    implicit none
    private
 
-   public :: stability_t, new_stability, margins_t, safe_margins
+   public :: stability_t, new_stability, margins_t
 
    integer, parameter :: waves_along = 24        ! wave numbers looked at, along an axis
    real(dp), parameter :: frozen_negative = 2    ! Euler's limit
-   real(dp), parameter :: few_neighbours = 1.33_dp   ! h/dx
    !> Below this cfl the growth of undamped sound in rk2 is lost in what `stable_cfl` counts as none.
    real(dp), parameter :: least_damped_cfl = 0.2_dp
 
-   !> Shares of a lattice's limits that are used: disordered fluid is less stable. Found in flows by utils/studies/margins
+   !> Shares of the lattice's limits that are used: disordered fluid is less stable. Found in flows by utils/studies/margins
    !! (docs/equations.md).
    type :: margins_t
-      !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop has lost its
-      !! energy balance at 0.95 and a dam break at 0.90 of it, not at 0.84.
+      !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop and a
+      !! dam break lose their energy balance at 0.95 of it, not at 0.90.
       real(dp) :: sound = 0.84_dp
-      !> In disordered fluid the kernel sum, and with it the rate of diffusion, is up to 1.3 times the lattice's.
-      real(dp) :: diffusion = 0.6808_dp
-      !> In disordered fluid with a free surface single particles run away from about 0.75 of the lattice's viscous limit on.
+      !> Of the rate that the kernel sum at each particle makes of the lattice's: up to 1.3 times as much in a flow.
+      real(dp) :: diffusion = 0.85_dp
+      !> In disordered fluid with a free surface single particles run away at 0.85 of the lattice's viscous limit,
+      !! not at 0.75.
       real(dp) :: viscous = 0.5365_dp
    end type margins_t
 
    !> Largest stable Courant numbers.
    type :: stability_t
       real(dp) :: sound = 0         !! of sound waves; 0: they grow whatever the step
-      real(dp) :: times_delta = 0   !! times the largest delta_i
+      real(dp) :: times_delta = 0   !! times the largest delta_i times crowding (module `frozen_terms`)
       real(dp) :: times_alpha = 0   !! times the largest alpha_i, that of the viscosity included
    contains
       procedure :: largest_cfl
@@ -53,7 +53,6 @@ contains
       type(wave_t) :: waves(waves_along*(waves_along + 3)/2)
       real(dp) :: rates(3), negative, damped
 
-      share = safe_margins(ratio)
       if (present(margins)) share = margins
       waves = lattice_waves(ratio, waves_along)
       rates = fastest_rates(waves)
@@ -68,14 +67,6 @@ contains
       self%times_delta = share%diffusion*negative/rates(2)
       self%times_alpha = share%viscous*negative/rates(3)
    end function new_stability
-
-   !> The margins in use.
-   elemental type(margins_t) function safe_margins(ratio) result(margins)
-      real(dp), intent(in) :: ratio   !! h/dx
-
-      margins = margins_t()
-      if (ratio < few_neighbours) margins%diffusion = 0.55_dp
-   end function safe_margins
 
    !> Largest Courant number dt c0/h that is safe: min(sound, times_delta/delta, times_alpha/alpha).
    elemental real(dp) function largest_cfl(self, delta, alpha)
