@@ -227,7 +227,7 @@ contains
       call keys%enter('time', 1)
       call keys%real_key('cfl', time%cfl, above(0.0_dp), '-', &
                          'Time step as a multiple of h/(c0 + h max|pi|), but never longer than is stable: by default '// &
-                         'min(2.09, 0.2/delta, 0.5/alpha), alpha with viscosity.')
+                         'min(2.09, 0.264/delta, 0.5/alpha), alpha with viscosity.')
       call keys%choice_key('beyond_limit', time%beyond_limit, [character(choice_length) :: 'reduce', 'refuse'], &
                            'What to do with a cfl that is not stable: take the largest that is, with a warning, or end.')
       call keys%choice_key('integrator', time%integrator, [character(choice_length) :: integrator_names], &

@@ -23,8 +23,8 @@ module linear_stability
       !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop and a
       !! dam break lose their energy balance at 0.95 of it, not at 0.90.
       real(dp) :: sound = 0.84_dp
-      !> Of the rate that the kernel sum at each particle makes of the lattice's: up to 1.3 times as much in a flow.
-      real(dp) :: diffusion = 0.85_dp
+      !> The rate at each particle follows its kernel sum (`frozen_terms.crowding`). With that, dam breaks run away at 1, not at 0.95.
+      real(dp) :: diffusion = 0.9_dp
       !> In disordered fluid with a free surface single particles run away at 0.85 of the lattice's viscous limit,
       !! not at 0.75.
       real(dp) :: viscous = 0.5365_dp
@@ -33,7 +33,7 @@ module linear_stability
    !> Largest stable Courant numbers.
    type :: stability_t
       real(dp) :: sound = 0         !! of sound waves; 0: they grow whatever the step
-      real(dp) :: times_delta = 0   !! times the largest delta_i times crowding (module `frozen_terms`)
+      real(dp) :: times_delta = 0   !! times the largest delta_i, each times its crowding
       real(dp) :: times_alpha = 0   !! times the largest alpha_i, that of the viscosity included
    contains
       procedure :: largest_cfl
@@ -41,7 +41,7 @@ module linear_stability
 
 contains
 
-   !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.09, 0.2 and 0.5.
+   !> The limits of an integrator; with rk4, frozen diffusion and h = 2 dx they are 2.09, 0.264 and 0.5.
    pure type(stability_t) function new_stability(integrator, frozen, ratio, delta, alpha, margins) result(self)
       type(integrator_t), intent(in) :: integrator
       logical, intent(in) :: frozen   !! diffusive terms are held over the step
@@ -71,7 +71,7 @@ contains
    !> Largest Courant number dt c0/h that is safe: min(sound, times_delta/delta, times_alpha/alpha).
    elemental real(dp) function largest_cfl(self, delta, alpha)
       class(stability_t), intent(in) :: self
-      real(dp), intent(in) :: delta   !! largest delta_i [-]
+      real(dp), intent(in) :: delta   !! largest delta_i, each times its crowding [-]
       real(dp), intent(in) :: alpha   !! largest alpha_i, that of the viscosity included [-]
 
       ! By products: a coefficient may be 0.
