@@ -101,9 +101,10 @@ contains
                pi_ij = du_dr*inverse*inverse
                fx(l) = fx(l) + pi_ij*gx
                fy(l) = fy(l) + pi_ij*gy
-               other = min(t, abs(owner(j) - oi(l)))
-               crowd(l) = crowd(l) + merge(g, 0.0_dp, other > 0)
-               pi_max(l) = max(pi_max(l), merge(abs(du_dr)*min(inverse*inverse, most), 0.0_dp, other > 0))
+               ! 1 for another particle within the support, else 0, without a branch: with one, nothing here is vectorised.
+               other = min(1.0_dp, huge(1.0_dp)*min(t, abs(owner(j) - oi(l))))
+               crowd(l) = crowd(l) + other*g
+               pi_max(l) = max(pi_max(l), other*abs(du_dr)*min(inverse*inverse, most))
             end do
          end do
       end do

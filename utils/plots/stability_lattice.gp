@@ -23,7 +23,7 @@ plot dir.'/map_delta.txt' using 1:3:(0.024):(0.094):(colour($5)) with boxxyerror
    1/0 with boxes linecolor rgb 0xf0b070 title '< 30 %', 1/0 with boxes linecolor rgb 0xd55e00 title '> 30 %', \
    '< grep "^frozen" '.dir.'/edges.txt | awk "\$3 == 0"' using 2:4 with lines linecolor rgb 'black' linewidth 2 title 'theory', \
    '' using 2:5 with points pointtype 6 linecolor rgb 'black' title 'measured edge', \
-   (x > 0.0957 ? 0.2/x : 2.091) with lines linecolor rgb 'black' linewidth 1.5 dashtype 2 title 'step rule'
+   (x > 0.1264 ? 0.2644/x : 2.091) with lines linecolor rgb 'black' linewidth 1.5 dashtype 2 title 'step rule'
 set xrange [-0.05:1.25]
 set xlabel 'α, δ = 0'
 plot dir.'/map_alpha.txt' using 2:3:(0.048):(0.094):(colour($5)) with boxxyerror linecolor rgb variable notitle, \
