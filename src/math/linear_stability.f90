@@ -23,7 +23,7 @@ module linear_stability
       !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop and a
       !! dam break lose their energy balance at 0.95 of it, not at 0.90.
       real(dp) :: sound = 0.84_dp
-      !> The rate at each particle follows its kernel sum (`frozen_terms.crowding`). With that, dam breaks run away at 1, not at 0.95.
+      !> The rate at each particle follows its kernel sum (`frozen_terms.crowding`). Dam breaks then run away at 1, not at 0.9.
       real(dp) :: diffusion = 0.9_dp
       !> In disordered fluid with a free surface single particles run away at 0.85 of the lattice's viscous limit,
       !! not at 0.75.
