@@ -349,7 +349,9 @@ contains
    pure real(dp) function fourth_digit(number)
       real(dp), intent(in) :: number
 
-      fourth_digit = 10.0_dp**(floor(log10(max(number, tiny(number)))) - 3)
+      real(dp), parameter :: least = 1.0e-300_dp   ! so that the power of ten has an inverse
+
+      fourth_digit = 10.0_dp**(floor(log10(max(number, least))) - 3)
    end function fourth_digit
 
    pure function four_digits(number) result(words)
