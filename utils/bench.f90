@@ -13,6 +13,7 @@ program bench
    use neighbours, only: neighbours_t
    use omp_lib, only: omp_get_max_threads, omp_set_num_threads
    use particles, only: bytes_per_slot, particles_t
+   use program_arguments, only: take_arguments
    use scene_input, only: read_settings
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: settings_t
@@ -37,14 +38,11 @@ contains
 
    subroutine read_arguments()
       type(command_line_t) :: options
-      character(256), allocatable :: words(:)
+      character(:), allocatable :: words(:)
       character(:), allocatable :: warnings(:)
-      integer :: k, status(2)
+      integer :: status(2)
 
-      allocate (words(command_argument_count()))
-      do k = 1, size(words)
-         call get_command_argument(k, words(k))
-      end do
+      call take_arguments(words)
       if (size(words) < 3) then
          call problem%raise(exit_input, 'usage: dynsph-bench SCENE.nml START_TIME STEPS [--set group.key=value ...]')
          return

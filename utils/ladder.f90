@@ -15,6 +15,7 @@ program ladder
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: allocate_particles, particles_t, reserve_slots
+   use program_arguments, only: take_arguments
    use recorder, only: recorder_t
    use result_directory, only: result_directory_t
    use scene_input, only: read_settings
@@ -56,13 +57,10 @@ program ladder
 contains
 
    subroutine read_arguments()
-      character(longest_line), allocatable :: words(:)
-      integer :: k, status(3)
+      character(:), allocatable :: words(:)
+      integer :: status(3)
 
-      allocate (words(command_argument_count()))
-      do k = 1, size(words)
-         call get_command_argument(k, words(k))
-      end do
+      call take_arguments(words)
       status = 1
       if (size(words) >= 5) then
          read (words(2), *, iostat=status(1)) start_time

@@ -11,6 +11,7 @@ program margins
    use kinds, only: dp
    use linear_stability, only: margins_t
    use options, only: options_t
+   use program_arguments, only: take_arguments
    use scene_input, only: load_scene, read_settings_text
    use scene_run, only: run_into_directory
    use settings, only: settings_t
@@ -20,9 +21,11 @@ program margins
    real(dp), parameter :: largest = 1.2_dp
    type(options_t) :: given
    type(failure) :: problem
+   character(:), allocatable :: arguments(:)
 
    call declare_options(given)
-   call given%parse(arguments(), problem)
+   call take_arguments(arguments)
+   call given%parse(arguments, problem)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-margins [--sound S] [--diffusion D] [--viscous V] SCENE.nml', ''
       call given%write_help(output_unit)
@@ -87,15 +90,5 @@ contains
                             //'; 1 is the limit of a lattice')
       end if
    end subroutine take
-
-   function arguments() result(words)
-      character(256), allocatable :: words(:)
-      integer :: i
-
-      allocate (words(command_argument_count()))
-      do i = 1, size(words)
-         call get_command_argument(i, words(i))
-      end do
-   end function arguments
 
 end program margins

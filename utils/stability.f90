@@ -14,6 +14,7 @@ program stability
    use neighbours, only: neighbours_t
    use options, only: options_t
    use particles, only: particles_t
+   use program_arguments, only: take_arguments
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: body_settings, settings_t
    use time_step, only: advance, refresh, step_t
@@ -29,11 +30,13 @@ program stability
    type(settings_t) :: scene
    type(options_t) :: given
    type(failure) :: problem
+   character(:), allocatable :: arguments(:)
    type(wave_t) :: waves(across*(across + 3)/2)
    real(dp) :: cfl, theory, edge
 
    call declare_options(given)
-   call given%parse(arguments(), problem)
+   call take_arguments(arguments)
+   call given%parse(arguments, problem)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-stability --delta D --alpha A [--cfl C]', ''
       call given%write_help(output_unit)
@@ -193,15 +196,5 @@ contains
          disturbance = sqrt(sum(base%u(1:n)**2 + base%v(1:n)**2 + base%s(1:n)**2, mask=own))
       end associate
    end function disturbance
-
-   function arguments() result(words)
-      character(256), allocatable :: words(:)
-      integer :: i
-
-      allocate (words(command_argument_count()))
-      do i = 1, size(words)
-         call get_command_argument(i, words(i))
-      end do
-   end function arguments
 
 end program stability

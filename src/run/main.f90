@@ -7,6 +7,7 @@ program main
    use lanes, only: nl
    use model, only: model_t
    use preliminary, only: preliminary_text
+   use program_arguments, only: take_arguments
    use report, only: estimate, start_box
    use run_log, only: log_t
    use scene_input, only: load_scene, read_settings_text, write_markdown, write_shortest, write_template
@@ -18,8 +19,10 @@ program main
 
    type(command_line_t) :: options
    type(failure) :: problem
+   character(:), allocatable :: arguments(:)
 
-   call parse_command_line(arguments(), options, problem)
+   call take_arguments(arguments)
+   call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
    if (options%help) then
       call write_help(output_unit)
@@ -35,21 +38,6 @@ program main
    call end_program(problem)
 
 contains
-
-   function arguments() result(list)
-      character(:), allocatable :: list(:)
-      integer :: k, length, longest
-
-      longest = 0
-      do k = 1, command_argument_count()
-         call get_command_argument(k, length=length)
-         longest = max(longest, length)
-      end do
-      allocate (character(longest) :: list(command_argument_count()))
-      do k = 1, size(list)
-         call get_command_argument(k, list(k))
-      end do
-   end function arguments
 
    subroutine write_version()
       write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'

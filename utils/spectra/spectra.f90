@@ -3,6 +3,7 @@ program spectra
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, failure
    use probe_command, only: run_probe_command
+   use program_arguments, only: take_arguments
    use text, only: quoted
    use vorticity_command, only: run_vorticity_command
    implicit none
@@ -11,7 +12,7 @@ program spectra
    character(:), allocatable :: arguments(:)   ! behind the command
    character(16) :: command
 
-   call take_arguments(arguments)
+   call take_arguments(arguments, from=2)
    command = '--help'
    if (command_argument_count() > 0) call get_command_argument(1, command)
    select case (command)
@@ -28,22 +29,5 @@ program spectra
       call problem%raise(exit_input, 'dynsph-spectra: there is no '//quoted(trim(command))//'; commands are vorticity and probe')
    end select
    call end_program(problem)
-
-contains
-
-   subroutine take_arguments(arguments)
-      character(:), allocatable, intent(out) :: arguments(:)   !! all of the longest's length
-      integer :: i, length, longest
-
-      longest = 1
-      do i = 2, command_argument_count()
-         call get_command_argument(i, length=length)
-         longest = max(longest, length)
-      end do
-      allocate (character(longest) :: arguments(max(0, command_argument_count() - 1)))
-      do i = 1, size(arguments)
-         call get_command_argument(i + 1, arguments(i))
-      end do
-   end subroutine take_arguments
 
 end program spectra
