@@ -102,6 +102,8 @@ contains
 
       coarse = scene
       coarse%output%n_fields = 0
+      ! With rk2 the viscosity, weaker in units of larger particles, may not damp sound at any step.
+      coarse%time%integrator = 'rk4'
       associate (domain => scene%domain, d => scene%scene%reference_length)
          least = resolution_range(1)
          do k = 1, size(scene%bodies)

@@ -34,7 +34,7 @@ contains
          end if
          if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
          ! Written so that NaN fails too.
-         if (.not. run%dt >= least_step_share*model%longest_step() .and. run%time < end_time) &
+         if (.not. run%dt > least_step_share*model%longest_step() .and. run%time < end_time) &
             call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
                                //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)) &
                                //'; a smaller limit of &model may help')
