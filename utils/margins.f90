@@ -3,7 +3,8 @@
 !! usage: dynsph-margins [--sound S] [--diffusion D] [--viscous V] [options] SCENE.nml     (--help lists them)
 !!
 !! A margin is the share of a still lattice's limit that the time step may use; 1 is all of it. Results are those of dynsph, with
-!! the margins in run.log. A cfl below the limit of sound rules the step whatever the margins: --set time.cfl=2.49 tries those.
+!! the margins in run.log; preliminary runs of reference_speed = 'auto' keep those of dynsph. A cfl below the limit of sound rules
+!! the step whatever the margins: --set time.cfl=2.49 tries those.
 program margins
    use, intrinsic :: iso_fortran_env, only: output_unit
    use command_line, only: command_line_t
@@ -18,7 +19,7 @@ program margins
    use text, only: short
    implicit none
 
-   real(dp), parameter :: largest = 1.2_dp
+   real(dp), parameter :: least = 0.01_dp, largest = 1.2_dp
    type(options_t) :: given
    type(failure) :: problem
    character(:), allocatable :: arguments(:)
@@ -83,10 +84,10 @@ contains
       if (.not. given%given(name)) return
       value = given%real_number(name, problem)
       if (problem%raised()) return
-      if (value > 0 .and. value <= largest) then
+      if (value >= least .and. value <= largest) then
          share = value
       else
-         call problem%raise(exit_input, 'dynsph-margins: '//name//' must be above 0 and at most '//short(largest) &
+         call problem%raise(exit_input, 'dynsph-margins: '//name//' must be from '//short(least)//' to '//short(largest) &
                             //'; 1 is the limit of a lattice')
       end if
    end subroutine take

@@ -92,8 +92,8 @@ contains
       if (size(list%files) > 0) call problem%raise(exit_input, 'dynsph-stability: there is no '//trim(list%files(1))// &
                                                    '; --help lists the options')
       if (problem%raised()) return
-      if (.not. (min(scene%model%delta, scene%model%alpha) >= 0 .and. max(scene%model%delta, scene%model%alpha) <= 1000)) &
-         call problem%raise(exit_input, 'dynsph-stability: --delta and --alpha must be from 0 to 1000')
+      if (.not. (min(scene%model%delta, scene%model%alpha) >= 0 .and. max(scene%model%delta, scene%model%alpha) <= 100)) &
+         call problem%raise(exit_input, 'dynsph-stability: --delta and --alpha must be from 0 to 100')
       if (.not. (scene%model%smoothing_ratio >= 1.2_dp .and. scene%model%smoothing_ratio <= 4)) &
          call problem%raise(exit_input, 'dynsph-stability: --smoothing-ratio must be from 1.2 to 4')
       scene%time%integrator = list%word('--integrator')

@@ -149,9 +149,9 @@ contains
          limit = stability%largest_cfl(delta, 0.0_dp)
          if (.not. limit > 0.0_dp) then
             call notes%mistake(document%place_of('time', 1, 'integrator'), 'time', '&time integrator = ' &
-                               //quoted(setup%time%integrator)//' is stable to cfl = 0.2 at least only where a constant ' &
-                               //'alpha or delta damps sound, here '//short(setup%alpha_total())//' and '//short(delta) &
-                               //': use rk4')
+                               //quoted(setup%time%integrator)//' needs a constant alpha or delta that damps sound ' &
+                               //'neither too weakly nor too strongly for cfl = 0.2; with '//short(setup%alpha_total())//' and ' &
+                               //short(delta)//': use rk4')
          else if (cfl > limit*(1.0_dp + slack)) then
             what = 'the limit of '//trim(setup%time%integrator)//' is '//rounded_down(limit)
             if (limit < stability%sound) what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &
@@ -223,7 +223,10 @@ contains
       stability = stability_of(setup)
       room = stability%times_alpha/min(setup%time%cfl, stability%sound)
       if (.not. stability%sound > 0.0_dp .or. alpha <= room*(1.0_dp + slack)) return
-      if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
+      if (setup%time%integrator == 'rk2') then
+         ! Less alpha or coarser particles damp sound less, and so lower the limit of cfl that there is room for.
+         advice = 'lower cfl'
+      else if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
          place = document%place_of('model', 1, 'alpha')
          advice = 'lower alpha of &model to '//rounded_down(room)
       else
@@ -255,19 +258,17 @@ contains
       per_step = cfl*setup%smoothing_length()/setup%fluid%sound_speed
       if (setup%time%end_time <= most_steps*per_step) return
       advice = 'raise cfl, or lower end_time or the sound speed '//short(setup%fluid%sound_speed)
-      if (cfl < setup%time%cfl) advice = 'lower '//shortening_key(setup)//', which makes them so short, or end_time'
+      if (cfl < setup%time%cfl) advice = 'lower '//shortening_key(setup, stability)//', which makes them so short, or end_time'
       call notes%mistake(document%place_of('time', 1, 'end_time'), 'time', '&time end_time = '//to_text(setup%time%end_time) &
                          //' is more than '//to_text(most_steps)//' steps of '//short(per_step)//': '//advice)
    end subroutine check_step_number
 
    ! What limits the step most.
-   function shortening_key(setup) result(words)
+   function shortening_key(setup, stability) result(words)
       type(settings_t), intent(in) :: setup
+      type(stability_t), intent(in) :: stability
       character(:), allocatable :: words
 
-      type(stability_t) :: stability
-
-      stability = stability_of(setup)
       words = 'the viscosity'
       if (setup%model%diffusion == 'constant' .and. 2.0_dp*setup%model%alpha > setup%alpha_total()) words = 'alpha of &model'
       if (stability%largest_cfl(constant_delta(setup), 0.0_dp) < stability%largest_cfl(0.0_dp, setup%alpha_total())) &

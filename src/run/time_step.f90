@@ -190,8 +190,7 @@ contains
          end do
       end do
       !$omp end parallel do
-      if (p%features%diffusion) &
-         call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
+      if (p%features%diffusion) call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
       if (model%dynamic) call fill_image_copies(near%images, p%n_own, p%alpha, p%delta)
    end subroutine first_sums
 
