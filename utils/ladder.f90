@@ -23,6 +23,7 @@ program ladder
    use settings, only: settings_t
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t
+   use waiting, only: sleep_while_waiting
    implicit none
 
    integer, parameter :: phase_output = 5
@@ -36,7 +37,6 @@ program ladder
       type(model_t) :: model
       type(particles_t) :: p      !! flowing state in `next`
       type(step_t) :: run
-      real(dp) :: stray = 0       !! of the step before
       type(recorder_t) :: recorder
       type(result_directory_t) :: directory
    end type variant_t
@@ -60,6 +60,7 @@ contains
       character(:), allocatable :: words(:)
       integer :: status(3)
 
+      call sleep_while_waiting()
       call take_arguments(words)
       status = 1
       if (size(words) >= 5) then
@@ -139,19 +140,17 @@ contains
       ! The last step, cut short to end at the start time, says nothing about the next.
       run%dt = variants(1)%model%longest_step()
       do k = 1, size(variants)
-         call take_over(p, run, near%stray, variants(k))
+         call take_over(p, run, variants(k))
          call open_tables(variants(k))
       end do
    end subroutine flow
 
-   subroutine take_over(p, run, stray, variant)
+   subroutine take_over(p, run, variant)
       type(particles_t), intent(in) :: p   !! base state
       type(step_t), intent(in) :: run
-      real(dp), intent(in) :: stray
       type(variant_t), intent(inout) :: variant
 
       variant%run = run
-      variant%stray = stray
       associate (new => variant%p, n => p%n_own)
          call allocate_particles(new, p%n, needed_features(variant%scene))
          call reserve_slots(new, n)
@@ -213,7 +212,6 @@ contains
          p = variant%p
          run = variant%run
          run%step = 1   ! the next one is as long as the last; cadences count from here
-         near%stray = variant%stray
          call timers%initialise(phases)
          call refresh(model, p, near, run, timers)
          call timers%initialise(phases)

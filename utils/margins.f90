@@ -17,6 +17,7 @@ program margins
    use scene_run, only: run_into_directory
    use settings, only: settings_t
    use text, only: short
+   use waiting, only: sleep_while_waiting
    implicit none
 
    real(dp), parameter :: least = 0.01_dp, largest = 1.2_dp
@@ -25,6 +26,7 @@ program margins
    character(:), allocatable :: arguments(:)
 
    call declare_options(given)
+   call sleep_while_waiting()
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    if (given%help) then

@@ -20,6 +20,8 @@ program stability
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t
    use von_neumann, only: growth, lattice_waves, stable_cfl, wave_t
+   use threads, only: limit_threads
+   use waiting, only: sleep_while_waiting
    implicit none
 
    integer, parameter :: across = 24                     ! particles
@@ -35,8 +37,10 @@ program stability
    real(dp) :: cfl, theory, edge
 
    call declare_options(given)
+   call sleep_while_waiting()
    call take_arguments(arguments)
    call given%parse(arguments, problem)
+   call limit_threads(across**2)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-stability --delta D --alpha A [--cfl C]', ''
       call given%write_help(output_unit)

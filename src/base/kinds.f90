@@ -5,6 +5,6 @@ module kinds
    private
 
    integer, parameter, public :: dp = real64   !! working precision
-   integer, parameter, public :: sp = real32   !! single precision, for files only
+   integer, parameter, public :: sp = real32   !! single precision, for files and for margins
    integer, parameter, public :: i8 = int64    !! counters that may pass 2**31
 end module kinds

@@ -4,21 +4,22 @@
 !! du_a/dx_b = sum_j (u_j - u_i)_a (L_i grad W)_b V_j is exact for velocities linear in x and y; particles whose
 !! matrix L is singular have none.
 module gradient_fields
+   use candidates, only: block_slots
    use eddy, only: eddy_coefficients, strain_rate, velocity_gradient, velocity_gradient_t
+   use first_sums, only: first_sums_t, pass_dynamic, sum_first
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: neighbours_t
-   use no_slip, only: add_wall_shear
+   use no_slip_sums, only: sum_jump_gradient
    use particles, only: particles_t
    use renormalisation, only: renormalise
-   use strain_sums, only: strain_sums_t, sum_strain
    implicit none
    private
 
    public :: gradient_fields_t, measure_gradients, gradient_numbers_t, extent_t, sum_up
 
-   integer, parameter :: block_slots = 512   !! slots that a partial sum goes over, so that threads don't matter
+   integer, parameter :: sum_slots = 512   !! slots that a partial sum goes over, so that threads don't matter
 
    !> What follows from the velocity gradient, for every own slot.
    type :: gradient_fields_t
@@ -45,24 +46,39 @@ contains
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near   !! of the base state
       type(gradient_fields_t), intent(out) :: fields
-      type(velocity_gradient_t) :: gradient
-      type(strain_sums_t) :: sums
-      integer :: c, i0
+      type(first_sums_t) :: sums
+      integer :: b
 
       allocate (fields%vorticity(p%n_own), fields%strain(p%n_own))
-      !$omp parallel do default(none) shared(model, p, near, fields) private(i0, sums, gradient) schedule(dynamic, 64)
-      do c = 1, near%n_clusters
-         i0 = (c - 1)*nl
-         call sum_strain(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
-         if (p%features%no_slip) call add_wall_shear(model, near%ranges(c), p, i0, sums)
-         associate (f => model%kernel%gradient_factor)
-            gradient = velocity_gradient(f, sums, renormalise(f, sums%matrix_xx, sums%matrix_xy, sums%matrix_yy))
+      !$omp parallel do default(none) shared(model, p, near, fields) private(sums) schedule(dynamic)
+      do b = 1, near%n_blocks
+         associate (block => near%blocks(b), i0 => (b - 1)*block_slots)
+            call sum_first(pass_dynamic, model%kernel, block, p, near%images%source, i0, sums)
+            if (p%features%no_slip) call sum_jump_gradient(model%kernel, block, p, i0, sums)
+            call take_fields(model%kernel%gradient_factor, sums, nl*block%n_clusters, fields%vorticity(i0 + 1:), &
+                             fields%strain(i0 + 1:))
          end associate
-         fields%vorticity(i0 + 1:i0 + nl) = gradient%v_x - gradient%u_y
-         fields%strain(i0 + 1:i0 + nl) = strain_rate(gradient)
       end do
       !$omp end parallel do
    end subroutine measure_gradients
+
+   ! Of a block from its sums.
+   pure subroutine take_fields(factor, sums, n, vorticity, strain)
+      real(dp), intent(in) :: factor            !! of the kernel's gradient
+      type(first_sums_t), intent(in) :: sums
+      integer, intent(in) :: n                  !! slots
+      real(dp), intent(inout) :: vorticity(n), strain(n)
+      type(velocity_gradient_t) :: gradient
+      real(dp) :: l_xx, l_xy, l_yy, regular
+      integer :: k
+
+      do k = 1, n
+         call renormalise(factor, sums%matrix_xx(k), sums%matrix_xy(k), sums%matrix_yy(k), l_xx, l_xy, l_yy, regular)
+         gradient = velocity_gradient(factor, sums, k, l_xx, l_xy, l_yy)
+         vorticity(k) = gradient%v_x - gradient%u_y
+         strain(k) = strain_rate(gradient)
+      end do
+   end subroutine take_fields
 
    !> Sums and extremes over the particles, the same for any number of threads.
    subroutine sum_up(model, p, fields, numbers)
@@ -73,11 +89,11 @@ contains
       type(gradient_numbers_t), allocatable :: blocks(:)
       integer :: b, n_blocks
 
-      n_blocks = (p%n_own + block_slots - 1)/block_slots
+      n_blocks = (p%n_own + sum_slots - 1)/sum_slots
       allocate (blocks(n_blocks))
       !$omp parallel do default(none) shared(model, p, fields, blocks, n_blocks)
       do b = 1, n_blocks
-         call sum_block(model, p, fields, (b - 1)*block_slots + 1, min(b*block_slots, p%n_own), blocks(b))
+         call sum_block(model, p, fields, (b - 1)*sum_slots + 1, min(b*sum_slots, p%n_own), blocks(b))
       end do
       !$omp end parallel do
       numbers%enstrophy = sum(blocks%enstrophy)

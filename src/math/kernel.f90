@@ -5,16 +5,20 @@
 !! F(r) = -W'(r)/r = 35/(4 pi h**4) (1 - q/2)**3, which is finite at r = 0.
 module kernel
    use kinds, only: dp, i8
+   use lanes, only: hardware_root
    implicit none
    private
 
-   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, root
+   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, pair, root
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
    !> Distance in h below which a pair counts as this far apart in max |pi_ij|. Nothing keeps particles from meeting, because the
    !! kernel's gradient is 0 at r = 0; with eq. 8 as printed, steps would shrink to nothing before they do.
    real(dp), parameter, public :: closest = 0.01_dp
+
+   !> Added to r**2, so that it can be divided by: nothing for particles that do not stand in the same place.
+   real(dp), parameter, public :: nothing = 1.0e-100_dp
 
    !> A kernel of given smoothing length with its constants worked out.
    type :: kernel_t
@@ -53,9 +57,33 @@ contains
       f = self%gradient_factor*max(0.0_dp, 1 - r*self%inverse_support)**3
    end function kernel_gradient
 
+   !> What every sum over neighbours takes of a pair: F V_j without its constant factor, and 1/r**2.
+   !!
+   !! F = factor t**3 with t = 1 - r/2h, 0 beyond the support. What a caller does not use is not computed: this is inlined. Which
+   !! root is faster is the processor's: CMake measures it (cmake/Lanes.cmake).
+   elemental subroutine pair(dx, dy, inverse_support, volume, weight, inverse_2)
+      real(dp), intent(in) :: dx, dy            !! r_j - r_i
+      real(dp), intent(in) :: inverse_support   !! 1/2h
+      real(dp), intent(in) :: volume            !! V_j
+      real(dp), intent(out) :: weight           !! t**3 V_j
+      real(dp), intent(out) :: inverse_2        !! 1/r**2
+      real(dp) :: z, r, inverse, t
+
+      z = dx*dx + (dy*dy + nothing)
+      if (hardware_root) then
+         r = sqrt(z)
+         inverse_2 = 1/z
+      else
+         call root(z, r, inverse)
+         inverse_2 = inverse*inverse
+      end if
+      t = max(0.0_dp, 1 - inverse_support*r)
+      weight = t*t*(t*volume)
+   end subroutine pair
+
    !> sqrt(z) and 1/sqrt(z) of z > 0 to 2e-14, by multiplications alone.
    !!
-   !! The vector square root of many processors occupies its unit for 18 cycles and more,
+   !! The vector square root of some processors occupies its unit for 18 cycles and more,
    !! half the time of a pair; a seed from the exponent bits and two third-order
    !! iterations cost 6. The result depends on z alone, so both particles of a pair see the
    !! same distance and the pair forces stay exactly opposite.

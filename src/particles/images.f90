@@ -8,7 +8,7 @@
 module images
    use kinds, only: dp, i8
    use particles, only: particles_t, state_t, reserve_slots
-   use strips, only: strips_t, sort_into_strips
+   use strips, only: group_slots, strips_t, sort_into_strips
    implicit none
    private
 
@@ -51,49 +51,87 @@ contains
 
    !> Finds the particles that are mirrored, and sorts their images into strips behind the own slots.
    !!
-   !! Decides on the predicted positions that the strips were sorted by: a particle closer than `reach` to a wall
-   !! gets an image.
-   subroutine list_images(self, walls, p, tau, reach)
+   !! Decides on the predicted positions that the strips were sorted by: a particle that may come closer than `reach` to a wall
+   !! within `travel` before or after that time gets an image.
+   subroutine list_images(self, walls, p, tau, travel, reach)
       type(images_t), intent(inout) :: self
       type(walls_t), intent(in) :: walls
-      type(particles_t), intent(inout) :: p   !! n_slots is set; owner of the images too
+      type(particles_t), intent(inout) :: p   !! n_slots is set
       real(dp), intent(in) :: tau             !! time that positions are predicted ahead by
-      real(dp), intent(in) :: reach
-      type(mapping_t) :: map
-      real(dp) :: x, y
-      integer :: i, c, k, n
-      logical :: sides(4)
+      real(dp), intent(in) :: travel          !! time
+      real(dp), intent(in) :: reach(4)        !! of each side
+      integer, parameter :: chunk = 1024   ! slots that a thread looks at at a time
+      integer, allocatable :: begin(:)     ! images before those of a chunk
+      integer :: b, i, k, n, n_chunks
 
       self%n = 0
-      sides = has_images(walls)
-      if (any(sides)) then
-         map = mappings(walls)
-         do i = 1, p%n_own
-            if (p%id(i) == 0) cycle
-            x = p%base%x(i) + tau*p%base%u(i)
-            y = p%base%y(i) + tau*p%base%v(i)
-            if (.not. near_any(walls, sides, x, y, reach)) cycle
-            do c = 1, size(vertical)
-               if (near(walls, sides, vertical(c), x, reach) .and. near(walls, sides, horizontal(c), y, reach)) &
-                  call append(self, i, c, map%sign_x(c)*x + map%offset_x(c), map%sign_y(c)*y + map%offset_y(c))
-            end do
+      n_chunks = (p%n_own + chunk - 1)/chunk
+      if (any(has_images(walls))) then
+         allocate (begin(n_chunks + 1), source=0)
+         !$omp parallel do default(none) shared(self, walls, p, tau, travel, reach, n_chunks, begin) schedule(static)
+         do b = 1, n_chunks
+            call look_at(self, walls, p, tau, travel, reach, (b - 1)*chunk + 1, min(b*chunk, p%n_own), .false., begin(b + 1))
          end do
+         !$omp end parallel do
+         do b = 1, n_chunks
+            begin(b + 1) = begin(b) + begin(b + 1)
+         end do
+         self%n = begin(n_chunks + 1)
       end if
+      call make_room(self, self%n)
       n = self%n
       p%n_slots = p%n_own + n
-      call reserve_slots(p, p%n_slots)
+      call reserve_slots(p, p%n_slots + group_slots)   ! module candidates looks at whole groups
       if (n == 0) then
          self%strips%n = 0
          return
       end if
+      !$omp parallel do default(none) shared(self, walls, p, tau, travel, reach, n_chunks, begin) private(k) schedule(static)
+      do b = 1, n_chunks
+         k = begin(b)
+         call look_at(self, walls, p, tau, travel, reach, (b - 1)*chunk + 1, min(b*chunk, p%n_own), .true., k)
+      end do
+      !$omp end parallel do
       call sort_into_strips(self%strips, n, self%used(1:n), self%x(1:n), self%y(1:n), p%n_own + 1, .false.)
+      !$omp parallel do default(none) shared(self, n) private(i)
       do k = 1, n
          i = self%strips%point_of(k)
          self%source(k) = self%unsorted_source(i)
          self%walls(k) = self%unsorted_walls(i)
-         p%owner(p%n_own + k) = self%source(k)
       end do
+      !$omp end parallel do
    end subroutine list_images
+
+   ! Counts the images of the slots first to last, and if there is room for them writes them behind the first `n`.
+   subroutine look_at(self, walls, p, tau, travel, reach, first, last, write_them, n)
+      type(images_t), intent(inout) :: self
+      type(walls_t), intent(in) :: walls
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: tau, travel, reach(4)
+      integer, intent(in) :: first, last
+      logical, intent(in) :: write_them
+      integer, intent(inout) :: n
+      type(mapping_t) :: map
+      real(dp) :: x, y, reaches(4)
+      integer :: i, c
+      logical :: sides(4)
+
+      sides = has_images(walls)
+      map = mappings(walls)
+      do i = first, last
+         if (p%id(i) == 0) cycle
+         x = p%base%x(i) + tau*p%base%u(i)
+         y = p%base%y(i) + tau*p%base%v(i)
+         reaches = reach + travel*abs([p%base%u(i), p%base%u(i), p%base%v(i), p%base%v(i)])
+         if (.not. near_any(walls, sides, x, y, reaches)) cycle
+         do c = 1, size(vertical)
+            if (.not. near(walls, sides, vertical(c), x, reaches)) cycle
+            if (.not. near(walls, sides, horizontal(c), y, reaches)) cycle
+            n = n + 1
+            if (write_them) call put(self, n, i, c, map%sign_x(c)*x + map%offset_x(c), map%sign_y(c)*y + map%offset_y(c))
+         end do
+      end do
+   end subroutine look_at
 
    ! The sides that there are images beyond.
    pure function has_images(walls) result(sides)
@@ -106,10 +144,10 @@ contains
    pure logical function near_any(walls, sides, x, y, reach)
       type(walls_t), intent(in) :: walls
       logical, intent(in) :: sides(4)
-      real(dp), intent(in) :: x, y, reach
+      real(dp), intent(in) :: x, y, reach(4)
 
-      near_any = (sides(1) .and. x - walls%at(1) < reach) .or. (sides(2) .and. walls%at(2) - x < reach) &
-                 .or. (sides(3) .and. y - walls%at(3) < reach) .or. (sides(4) .and. walls%at(4) - y < reach)
+      near_any = (sides(1) .and. x - walls%at(1) < reach(1)) .or. (sides(2) .and. walls%at(2) - x < reach(2)) &
+                 .or. (sides(3) .and. y - walls%at(3) < reach(3)) .or. (sides(4) .and. walls%at(4) - y < reach(4))
    end function near_any
 
    ! Whether a coordinate is closer than reach to side number `side`; true for 0, which makes no image.
@@ -117,46 +155,39 @@ contains
       type(walls_t), intent(in) :: walls
       logical, intent(in) :: sides(4)
       integer, intent(in) :: side
-      real(dp), intent(in) :: coordinate, reach
+      real(dp), intent(in) :: coordinate, reach(4)
 
       near = .true.
       if (side == 0) return
       near = .false.
-      if (sides(side)) near = abs(coordinate - walls%at(side)) < reach
+      if (sides(side)) near = abs(coordinate - walls%at(side)) < reach(side)
    end function near
 
-   subroutine append(self, i, c, x, y)
+   subroutine put(self, n, i, c, x, y)
       type(images_t), intent(inout) :: self
-      integer, intent(in) :: i, c
+      integer, intent(in) :: n, i, c
       real(dp), intent(in) :: x, y   !! of the image
-      integer :: n
 
-      n = self%n + 1
-      call make_room(self, n)
       self%unsorted_source(n) = i
       self%unsorted_walls(n) = c
       self%x(n) = x
       self%y(n) = y
       self%used(n) = 1
-      self%n = n
-   end subroutine append
+   end subroutine put
 
+   ! The numbers that there are need not be kept.
    subroutine make_room(self, n)
       type(images_t), intent(inout) :: self
       integer, intent(in) :: n
       integer :: larger
 
-      if (.not. allocated(self%source)) allocate (self%source(0), self%walls(0), self%unsorted_source(0), &
-                                                  self%unsorted_walls(0), self%used(0), self%x(0), self%y(0))
-      if (n <= size(self%source)) return
-      larger = n + n/2 + 64
-      self%source = [self%source, spread(0, 1, larger - size(self%source))]
-      self%walls = [self%walls, spread(0, 1, larger - size(self%walls))]
-      self%unsorted_source = [self%unsorted_source, spread(0, 1, larger - size(self%unsorted_source))]
-      self%unsorted_walls = [self%unsorted_walls, spread(0, 1, larger - size(self%unsorted_walls))]
-      self%used = [self%used, spread(0, 1, larger - size(self%used))]
-      self%x = [self%x, spread(0.0_dp, 1, larger - size(self%x))]
-      self%y = [self%y, spread(0.0_dp, 1, larger - size(self%y))]
+      if (allocated(self%source)) then
+         if (n <= size(self%source)) return
+         deallocate (self%source, self%walls, self%unsorted_source, self%unsorted_walls, self%used, self%x, self%y)
+      end if
+      larger = n + n/8
+      allocate (self%source(larger), self%walls(larger), self%unsorted_source(larger), self%unsorted_walls(larger), &
+                self%used(larger), self%x(larger), self%y(larger))
    end subroutine make_room
 
    !> Bytes that all arrays take.

@@ -3,7 +3,7 @@
 !! Own slots are filled strip by strip (module `strips`), each strip padded to whole
 !! clusters of `nl` slots with dummies: far away, without volume, id 0.
 module particles
-   use kinds, only: dp, i8
+   use kinds, only: dp, i8, sp
    use lanes, only: nl
    implicit none
    private
@@ -43,7 +43,7 @@ module particles
       real(dp), allocatable :: m(:)               !! (n_slots) mass, own slots only
       integer, allocatable :: id(:)               !! (n_slots) 1..n for real particles, 0 for dummies
       integer, allocatable :: sorted_id(:)        !! (n_slots) scratch of the sort
-      real(dp), allocatable :: owner(:)           !! (n_slots) own slot number; of an image, its source's
+      real(sp), allocatable :: sorted_u(:), sorted_v(:)   !! (n_slots) velocity when the particles were sorted, own slots only
       real(dp), allocatable :: visc_x(:), visc_y(:)   !! (n_slots) frozen viscous acceleration
       real(dp), allocatable :: diff_s(:)          !! (n_slots) frozen density-diffusion rate
       real(dp), allocatable :: grad_x(:), grad_y(:)   !! (n_slots) G, renormalised gradient of rho
@@ -85,7 +85,8 @@ contains
          call grow_state(self%stage(k), capacity, bytes)
       end do
       call grow(self%m, capacity, 0.0_dp, bytes)
-      call grow(self%owner, capacity, 0.0_dp, bytes)
+      call grow_single(self%sorted_u, capacity, bytes)
+      call grow_single(self%sorted_v, capacity, bytes)
       associate (features => self%features)
          if (features%viscosity) call grow_pair(self%visc_x, self%visc_y, capacity, bytes)
          if (features%diffusion) call grow(self%diff_s, capacity, 0.0_dp, bytes)
@@ -175,6 +176,22 @@ contains
       bytes = bytes + storage_size(larger)/8
       call move_alloc(larger, array)
    end subroutine grow
+
+   subroutine grow_single(array, capacity, bytes)
+      real(sp), allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: capacity
+      integer, intent(inout) :: bytes
+      real(sp), allocatable :: larger(:)
+      integer :: old
+
+      allocate (larger(capacity))
+      old = 0
+      if (allocated(array)) old = size(array)
+      if (old > 0) larger(1:old) = array
+      larger(old + 1:) = 0
+      bytes = bytes + storage_size(larger)/8
+      call move_alloc(larger, array)
+   end subroutine grow_single
 
    subroutine grow_integer(array, capacity, bytes)
       integer, allocatable, intent(inout) :: array(:)

@@ -1,8 +1,8 @@
-!> Neighbour search: horizontal strips of slots, sorted in x, that a cluster's neighbours lie in
+!> Neighbour search: horizontal strips of slots, sorted in x, that a group's neighbours lie in
 !! as a few contiguous ranges.
 !!
 !! Strips are half a search radius high. Inside a strip, points are counting-sorted in x by bins much narrower
-!! than the particle spacing, so the slots that a cluster can reach are one range a strip.
+!! than the particle spacing, so the slots that a group of particles can reach are one range a strip.
 !! The order of slots is that of strip, bin and previous slot, whatever the number of threads.
 module strips
    use, intrinsic :: iso_fortran_env, only: int64
@@ -14,7 +14,8 @@ module strips
 
    public :: strips_t, ranges_t, extent_t, sort_into_strips, add_ranges, relative_speed
 
-   integer, parameter, public :: max_ranges = 24   !! a cluster's ranges: strips it reaches, own and images
+   integer, parameter, public :: group_slots = max(8, nl)   !! slots whose neighbours are searched for together
+   integer, parameter, public :: max_ranges = 24   !! a group's ranges: strips it reaches
 
    !> Contiguous slot ranges.
    type :: ranges_t
@@ -56,19 +57,19 @@ contains
    !!
    !! Points with used = 0 are left out. With more than `max_strips` strips nothing is done and
    !! n = -1: some point is absurdly far from the others.
-   subroutine sort_into_strips(self, n_points, used, x, y, first_slot, whole_clusters)
+   subroutine sort_into_strips(self, n_points, used, x, y, first_slot, whole_groups)
       type(strips_t), intent(inout) :: self      !! height and bin_width are set by the caller
       integer, intent(in) :: n_points
       integer, intent(in) :: used(n_points)      !! nonzero for points that take part
       real(dp), intent(in) :: x(n_points), y(n_points)
       integer, intent(in) :: first_slot
-      logical, intent(in) :: whole_clusters      !! pad each strip to a multiple of nl slots
+      logical, intent(in) :: whole_groups        !! pad each strip to whole groups
       integer, allocatable :: strip_start(:)
 
       call assign_strips(self, n_points, used, y)
       if (self%n < 0) return
       call list_by_strip(self, n_points, strip_start)
-      call lay_out(self, strip_start, x, first_slot, whole_clusters)
+      call lay_out(self, strip_start, x, first_slot, whole_groups)
       call fill_bins(self, strip_start, x)
    end subroutine sort_into_strips
 
@@ -158,12 +159,12 @@ contains
    end subroutine list_by_strip
 
    ! Where each strip's slots and bins begin.
-   subroutine lay_out(self, strip_start, x, first_slot, whole_clusters)
+   subroutine lay_out(self, strip_start, x, first_slot, whole_groups)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: strip_start(:)
       real(dp), intent(in) :: x(:)
       integer, intent(in) :: first_slot
-      logical, intent(in) :: whole_clusters
+      logical, intent(in) :: whole_groups
       real(dp) :: leftmost, rightmost
       integer :: k, i, n_here, slot, offset, max_bins
 
@@ -197,7 +198,7 @@ contains
       do k = 1, self%n
          n_here = strip_start(k + 1) - strip_start(k)
          self%slot_start(k) = slot
-         if (whole_clusters) n_here = nl*((n_here + nl - 1)/nl)
+         if (whole_groups) n_here = group_slots*((n_here + group_slots - 1)/group_slots)
          slot = slot + n_here
          self%bin_offset(k) = offset
          offset = offset + self%bins(k) + 1
@@ -275,14 +276,12 @@ contains
          if (self%bins(k) == 0) cycle
          closing = travel*relative_speed(box, self%extent(k))
          strip_bottom = self%bottom + (k - 1)*self%height
-         gap = max(strip_bottom - box%upper(2), box%lower(2) - (strip_bottom + self%height)) - closing(2)
+         gap = max(0.0_dp, strip_bottom - box%upper(2) - closing(2), box%lower(2) - (strip_bottom + self%height) - closing(2))
          if (gap >= reach) cycle
-         half_width = sqrt(reach**2 - max(0.0_dp, gap)**2) + closing(1)
+         half_width = sqrt((reach - gap)*(reach + gap)) + closing(1)
          if (box%upper(1) + half_width < self%left(k)) cycle
-         associate (start => self%bin_offset(k))
-            first = self%bin_start(start + bin(self, k, box%lower(1) - half_width))
-            last = self%bin_start(start + bin(self, k, box%upper(1) + half_width) + 1) - 1
-         end associate
+         first = self%bin_start(self%bin_offset(k) + bin(self, k, box%lower(1) - half_width))
+         last = self%bin_start(self%bin_offset(k) + bin(self, k, box%upper(1) + half_width) + 1) - 1
          if (last < first) cycle
          call add_range(ranges, first, last)
       end do

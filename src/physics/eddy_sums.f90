@@ -1,51 +1,55 @@
-!> Pair sums of the diffusive terms with the dynamic model, for one cluster of particles.
+!> Pair sums of the diffusive terms with the dynamic model, for a block of clusters.
 !!
-!! Source: eqs. 5-7 with the pair coefficients of eqs. 25 and 26,
-!! delta_ij = 2 delta_i delta_j/(delta_i + delta_j) and alpha_ij = alpha + 2 alpha_i alpha_j/(alpha_i + alpha_j).
+!! Source: eqs. 5-7 with the pair coefficients of eqs. 25 and 26, alpha_ij besides the real viscosity's alpha.
 !! As D_ij . grad W = [2 (s_j - s_i) - (G_i + G_j) . r_ji] F, the 1/r**2 of eq. 6 cancels.
 module eddy_sums
+   use candidates, only: block_slots, candidates_t
+   use harmonic_means, only: mean_coefficients
+   use kernel, only: kernel_t, pair
    use kinds, only: dp
-   use kernel, only: kernel_t, root
    use lanes, only: nl
    use particles, only: particles_t
-   use strips, only: ranges_t
    implicit none
    private
 
    public :: eddy_sums_t, sum_eddy
 
-   !> The sums of a cluster, without the kernel's constant factor F = factor t**3.
+   !> The sums of a block, without the kernel's constant factor F = factor t**3.
    type :: eddy_sums_t
-      real(dp) :: diffusion(nl)   !! sum_j delta_ij D_ij . r_ji t**3 V_j
-      real(dp) :: viscous_x(nl)   !! sum_j alpha_ij pi_ij x_ji t**3 V_j
-      real(dp) :: viscous_y(nl)
+      real(dp) :: diffusion(block_slots)   !! sum_j delta_ij D_ij . r_ji t**3 V_j
+      real(dp) :: viscous_x(block_slots)   !! sum_j (alpha + alpha_ij) pi_ij x_ji t**3 V_j
+      real(dp) :: viscous_y(block_slots)
    end type eddy_sums_t
 
 contains
 
-   !> Sums over all slots in the cluster's ranges; the lanes of the inner loop are the cluster's particles.
-   pure subroutine sum_eddy(kernel, ranges, p, alpha, i0, sums)
+   !> Sums over all candidates; the lanes of the inner loop are a cluster's particles.
+   pure subroutine sum_eddy(kernel, block, p, alpha, i0, sums)
       type(kernel_t), intent(in) :: kernel
-      type(ranges_t), intent(in) :: ranges    !! slots to visit
+      type(candidates_t), intent(in) :: block
       type(particles_t), intent(in) :: p      !! base state, G, alpha_i and delta_i of all slots
       real(dp), intent(in) :: alpha           !! that acts everywhere: the real viscosity's
-      integer, intent(in) :: i0               !! slot before the cluster's first
-      type(eddy_sums_t), intent(out) :: sums
+      integer, intent(in) :: i0               !! slot before the block's first
+      type(eddy_sums_t), intent(inout) :: sums
+      integer :: c, k
 
-      call lane_loop(ranges%n, ranges%first, ranges%last, size(p%base%x), p%base%x, p%base%y, p%base%u, p%base%v, &
-                     p%base%s, p%base%w, p%grad_x, p%grad_y, p%alpha, p%delta, alpha, i0, kernel%inverse_support, sums)
+      do c = 1, block%n_clusters
+         k = (c - 1)*nl
+         call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
+                        size(p%base%x), p%base%x, p%base%y, p%base%u, p%base%v, p%base%s, p%base%w, p%grad_x, p%grad_y, &
+                        p%alpha, p%delta, alpha, i0 + k, kernel%inverse_support, sums%diffusion(k + 1:k + nl), &
+                        sums%viscous_x(k + 1:k + nl), sums%viscous_y(k + 1:k + nl))
+      end do
    end subroutine sum_eddy
 
-   ! Explicit shapes and accumulators of fixed length keep the sums in vector registers. One division serves both
-   ! harmonic means: 1/[(alpha_i + alpha_j)(delta_i + delta_j)]; `nothing` makes the mean of 0 and 0 vanish without a
-   ! trace in the other one.
-   pure subroutine lane_loop(n_ranges, first, last, n, x, y, u, v, s, w, gx, gy, a, d, alpha, i0, inverse_support, sums)
-      integer, intent(in) :: n_ranges, first(n_ranges), last(n_ranges), n, i0
+   ! Explicit shapes and accumulators of fixed length keep the sums in vector registers.
+   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, w, gx, gy, a, d, alpha, i0, inverse_support, diffusion, &
+                             viscous_x, viscous_y)
+      integer, intent(in) :: n_near, near(n_near), n, i0
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), gx(n), gy(n), a(n), d(n), alpha, inverse_support
-      type(eddy_sums_t), intent(out) :: sums
-      real(dp), parameter :: nothing = 1.0e-150_dp   ! its square can be divided by
-      real(dp), dimension(nl) :: xi, yi, ui, vi, si, gxi, gyi, ai, di, diffusion, fx, fy
-      real(dp) :: dx, dy, r, inverse, t, g, d_ij, pi_ij, a_sum, d_sum, both, f
+      real(dp), dimension(nl), intent(out) :: diffusion, viscous_x, viscous_y
+      real(dp), dimension(nl) :: xi, yi, ui, vi, si, gxi, gyi, ai, di, total, ax, ay
+      real(dp) :: dx, dy, g, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij
       integer :: k, j, l
 
       xi = x(i0 + 1:i0 + nl)
@@ -57,31 +61,28 @@ contains
       gyi = gy(i0 + 1:i0 + nl)
       ai = a(i0 + 1:i0 + nl)
       di = d(i0 + 1:i0 + nl)
-      diffusion = 0
-      fx = 0
-      fy = 0
-      do k = 1, n_ranges
-         do j = first(k), last(k)
-            !$omp simd private(dx, dy, r, inverse, t, g, d_ij, pi_ij, a_sum, d_sum, both, f)
-            do l = 1, nl
-               dx = x(j) - xi(l)
-               dy = y(j) - yi(l)
-               call root(dx*dx + (dy*dy + tiny(1.0_dp)), r, inverse)
-               t = max(0.0_dp, 1 - inverse_support*r)
-               g = t*t*(t*w(j))
-               a_sum = ai(l) + a(j) + nothing
-               d_sum = di(l) + d(j) + nothing
-               both = 2/(a_sum*d_sum)
-               d_ij = 2*(s(j) - si(l)) - ((gxi(l) + gx(j))*dx + (gyi(l) + gy(j))*dy)
-               diffusion(l) = diffusion(l) + (di(l)*d(j))*(a_sum*both)*(d_ij*g)
-               pi_ij = ((u(j) - ui(l))*dx + (v(j) - vi(l))*dy)*(inverse*inverse)
-               f = (alpha + (ai(l)*a(j))*(d_sum*both))*(pi_ij*g)
-               fx(l) = fx(l) + f*dx
-               fy(l) = fy(l) + f*dy
-            end do
+      total = 0
+      ax = 0
+      ay = 0
+      do k = 1, n_near
+         j = near(k)
+         !$omp simd private(dx, dy, g, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij)
+         do l = 1, nl
+            dx = x(j) - xi(l)
+            dy = y(j) - yi(l)
+            call pair(dx, dy, inverse_support, w(j), g, inverse_2)
+            call mean_coefficients(ai(l), a(j), di(l), d(j), alpha_ij, delta_ij)
+            d_ij = 2*(s(j) - si(l)) - ((gxi(l) + gx(j))*dx + (gyi(l) + gy(j))*dy)
+            total(l) = total(l) + delta_ij*(d_ij*g)
+            pi_ij = ((u(j) - ui(l))*dx + (v(j) - vi(l))*dy)*inverse_2
+            pi_ij = (alpha + alpha_ij)*(pi_ij*g)
+            ax(l) = ax(l) + pi_ij*dx
+            ay(l) = ay(l) + pi_ij*dy
          end do
       end do
-      sums = eddy_sums_t(diffusion, fx, fy)
+      diffusion = total
+      viscous_x = ax
+      viscous_y = ay
    end subroutine lane_loop
 
 end module eddy_sums

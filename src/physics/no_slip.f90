@@ -1,49 +1,36 @@
 !> Friction at no-slip walls: added to the frozen viscous acceleration.
 module no_slip
+   use candidates, only: candidates_t
    use kinds, only: dp
-   use lanes, only: nl
    use model, only: model_t
-   use no_slip_sums, only: friction_sums_t, sum_friction, sum_jump_gradient
+   use no_slip_sums, only: friction_sums_t, sum_friction
    use particles, only: particles_t
-   use strain_sums, only: strain_sums_t
-   use strips, only: ranges_t
    implicit none
    private
 
-   public :: add_friction, add_wall_shear
+   public :: add_friction
 
 contains
 
-   !> Adds the friction of a cluster's walls to its viscous acceleration.
-   pure subroutine add_friction(model, ranges, p, i0, power)
+   !> Adds the friction of a block's walls to its viscous acceleration.
+   pure subroutine add_friction(model, block, p, i0, n, power)
       type(model_t), intent(in) :: model
-      type(ranges_t), intent(in) :: ranges
-      type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the cluster change
-      integer, intent(in) :: i0               !! slot before the cluster's first
+      type(candidates_t), intent(in) :: block
+      type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the block change
+      integer, intent(in) :: i0, n            !! slot before the block's first; slots
       real(dp), intent(inout) :: power        !! what moving walls give is added
       type(friction_sums_t) :: sums
-      real(dp) :: factor(nl)
+      real(dp) :: factor
+      integer :: k
 
-      if (ranges%n == 0) return
-      if (ranges%last(ranges%n) <= p%n_own) return
-      call sum_friction(model%kernel, ranges, p, model%alpha, i0, sums)
-      factor = model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0/(model%rho0 + p%base%s(i0 + 1:i0 + nl))
-      p%visc_x(i0 + 1:i0 + nl) = p%visc_x(i0 + 1:i0 + nl) + factor*sums%x
-      p%visc_y(i0 + 1:i0 + nl) = p%visc_y(i0 + 1:i0 + nl) + factor*sums%y
-      power = power + sum(p%m(i0 + 1:i0 + nl)*factor*sums%power)
+      if (.not. any(block%first_image(:block%n_clusters) < block%first(2:block%n_clusters + 1))) return
+      call sum_friction(model%kernel, block, p, model%alpha, i0, sums)
+      do k = 1, n
+         factor = model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0/(model%rho0 + p%base%s(i0 + k))
+         p%visc_x(i0 + k) = p%visc_x(i0 + k) + factor*sums%x(k)
+         p%visc_y(i0 + k) = p%visc_y(i0 + k) + factor*sums%y(k)
+         power = power + p%m(i0 + k)*factor*sums%power(k)
+      end do
    end subroutine add_friction
-
-   !> Adds what a cluster's no-slip walls change in its velocity gradient.
-   pure subroutine add_wall_shear(model, ranges, p, i0, sums)
-      type(model_t), intent(in) :: model
-      type(ranges_t), intent(in) :: ranges
-      type(particles_t), intent(in) :: p
-      integer, intent(in) :: i0
-      type(strain_sums_t), intent(inout) :: sums
-
-      if (ranges%n == 0) return
-      if (ranges%last(ranges%n) <= p%n_own) return
-      call sum_jump_gradient(model%kernel, ranges, p, i0, sums%u_x, sums%u_y, sums%v_x, sums%v_y)
-   end subroutine add_wall_shear
 
 end module no_slip

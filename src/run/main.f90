@@ -3,24 +3,28 @@ program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
    use command_line, only: command_line_t, parse_command_line, write_help
+   use cost, only: estimate_cost
    use errors, only: end_program, failure
-   use lanes, only: nl
+   use lanes, only: how_chosen, nl, root_name
    use model, only: model_t
    use preliminary, only: preliminary_text
    use program_arguments, only: take_arguments
-   use report, only: estimate, start_box
+   use report, only: start_box
    use run_log, only: log_t
    use scene_input, only: load_scene, read_settings_text, write_markdown, write_shortest, write_template
    use scene_run, only: run_into_directory
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use text, only: to_text
+   use threads, only: limit_threads
+   use waiting, only: sleep_while_waiting
    implicit none
 
    type(command_line_t) :: options
    type(failure) :: problem
    character(:), allocatable :: arguments(:)
 
+   call sleep_while_waiting()
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
@@ -43,7 +47,7 @@ contains
       write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'
       write (output_unit, '(a)') compiler_version()
       write (output_unit, '(a)') compiler_options()
-      write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles'
+      write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles, root by '//root_name//' ('//how_chosen//')'
    end subroutine write_version
 
    !> Reads the scene, then prints, checks or runs it.
@@ -74,7 +78,8 @@ contains
          call screen%warn('input '//to_text(k), trim(warnings(k)))
       end do
       model = set_up_model(scene)
-      call start_box(screen, scene, model, estimate(scene, model, count_particles(scene)))
+      call limit_threads(count_particles(scene))
+      call start_box(screen, scene, model, estimate_cost(scene, model, count_particles(scene)))
       if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
       call screen%line(options%scene//' is valid; nothing was run')
    end subroutine run_scene

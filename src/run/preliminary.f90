@@ -11,6 +11,7 @@ module preliminary
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
+   use omp_lib, only: omp_set_num_threads
    use progress, only: progress_t
    use quantiles, only: quantile, weighted_quantile
    use run_log, only: log_t
@@ -19,6 +20,7 @@ module preliminary
    use settings, only: is_wall, settings_t
    use step_check, only: check_step
    use text, only: short, to_text
+   use threads, only: limit_threads
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t, wall_seconds
    implicit none
@@ -27,7 +29,7 @@ module preliminary
    public :: find_reference_speed, coarse_scene, preliminary_text
 
    !> Shares of the resolution of the two runs; the sum of their cubes, 1.9 %, is that of the cost.
-   real(dp), parameter :: coarse_share(2) = [0.15_dp, 0.25_dp]
+   real(dp), parameter, public :: coarse_share(2) = [0.15_dp, 0.25_dp]
    real(dp), parameter :: largest_cost = 0.02_dp       !! of the run, that is not mentioned
    real(dp), parameter :: least_across = 4             !! particles across the thinnest body
    real(dp), parameter :: particle_share = 0.995_dp    !! particles that are not faster than U_ref,
@@ -63,7 +65,7 @@ contains
       cost = 0
       call log%line(preliminary_text(scene))
       do pass = 1, 2
-         coarse = coarse_scene(scene, pass)
+         coarse = coarse_scene(scene, coarse_share(pass)*scene%scene%resolution)
          call run_coarse(coarse, log, found, problem)
          if (.not. (problem%raised() .or. found%speed > 0)) call problem%raise(exit_numerics, &
             "&fluid reference_speed = 'auto': nothing moved in the preliminary run; give it a number")
@@ -85,17 +87,17 @@ contains
       type(finding_t), intent(in) :: found
       type(settings_t) :: second
 
-      second = coarse_scene(scene, 2)
+      second = coarse_scene(scene, coarse_share(2)*scene%scene%resolution)
       associate (mach => scene%fluid%mach)
          is_enough = coarse%scene%resolution >= second%scene%resolution &
                      .and. abs(found%speed/coarse%fluid%sound_speed - mach) <= good_enough*mach
       end associate
    end function is_enough
 
-   !> The same scene with as few particles as still show what the flow does.
-   pure type(settings_t) function coarse_scene(scene, pass) result(coarse)
+   !> The same scene with fewer particles, but as many as still show what the flow does.
+   pure type(settings_t) function coarse_scene(scene, resolution) result(coarse)
       type(settings_t), intent(in) :: scene
-      integer, intent(in) :: pass   !! 1 or 2
+      real(dp), intent(in) :: resolution   !! wanted
       real(dp) :: least, extent(2)
       real(dp) :: least_between   ! spacings between opposite sides
       integer :: k
@@ -113,7 +115,7 @@ contains
          least_between = 4*scene%model%smoothing_ratio + 2
          if (closed(domain%left, domain%right)) least = max(least, least_between*d/extent(1))
          if (closed(domain%bottom, domain%top)) least = max(least, least_between*d/extent(2))
-         coarse%scene%resolution = min(max(coarse_share(pass)*scene%scene%resolution, least), scene%scene%resolution)
+         coarse%scene%resolution = min(max(resolution, least), scene%scene%resolution)
       end associate
       ! The run proper may end early, and then the flow must not be asked what it does later.
       if (scene%time%max_steps > 0) &
@@ -141,8 +143,8 @@ contains
       character(:), allocatable :: words
       type(settings_t) :: first, second
 
-      first = coarse_scene(scene, 1)
-      second = coarse_scene(scene, 2)
+      first = coarse_scene(scene, coarse_share(1)*scene%scene%resolution)
+      second = coarse_scene(scene, coarse_share(2)*scene%scene%resolution)
       words = short(first%scene%resolution)
       if (second%scene%resolution > first%scene%resolution) words = words//' and '//short(second%scene%resolution)
       words = "reference_speed = 'auto': c0 = "//short(scene%fluid%sound_speed)//' is a guess; preliminary runs at d/dx = ' &
@@ -170,10 +172,12 @@ contains
       type(timers_t) :: timers
       type(progress_t) :: progress
       type(failure) :: trouble
+      integer :: threads_before
 
       call timers%initialise([character(24) :: 'sort', 'gradients', 'diffusion', 'stages'])
       model = set_up_model(scene)
       call set_up_particles(scene, model, p)
+      call limit_threads(p%n, threads_before)
       call progress%start(0.0_dp, scene%time%end_time, 0, p%n)
       call refresh(model, p, near, run, timers)
       do while (.not. run%scattered)
@@ -185,6 +189,7 @@ contains
          call refresh(model, p, near, run, timers)
          call progress%update(log, run%time, run%dt, run%step)
       end do
+      call omp_set_num_threads(threads_before)
       if (run%scattered .and. .not. trouble%raised()) call check_step(model, p, run, scene%time%end_time, trouble)
       if (trouble%raised()) call problem%raise(exit_numerics, "the preliminary run for &fluid reference_speed = 'auto' (d/dx = " &
          //short(scene%scene%resolution)//', c0 = '//short(model%c0)//') failed; give reference_speed a number.' &

@@ -3,14 +3,16 @@ module report
    use budget, only: budget_t
    use build_info, only: build_type, git_id, version
    use cadence, only: cadence_t
+   use cost, only: cost_t
    use errors, only: failure
    use images, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
+   use lanes, only: nl, root_name
    use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t
    use omp_lib, only: omp_get_max_threads
    use neighbours, only: neighbours_t
-   use particles, only: bytes_per_slot, features_t, particles_t
+   use particles, only: features_t, particles_t
    use progress, only: duration_text
    use recorder, only: recorder_t
    use run_log, only: log_t
@@ -23,76 +25,34 @@ module report
    implicit none
    private
 
-   public :: start_box, closing_table, write_summary_file, estimate_t, estimate
-
-   ! Measured cost of a step by utils/bench, for the estimate before a run.
-   real(dp), parameter :: ns_constant = 600.0_dp, ns_dynamic = 700.0_dp   ! per particle-step and core
-   ! Violent flow takes more steps than dt = CFL h/c0 would give; measured in dam breaks (docs/results.md).
-   real(dp), parameter :: typical_step_share = 0.8_dp
+   public :: start_box, closing_table, write_summary_file
 
    character(*), parameter :: peak_names(4) = [character(24) :: 'time_kinetic_maximum', 'time_potential_maximum', &
                                                'time_kinetic_maximum_2', 'time_elastic_peak']
 
-   !> What a run will cost, roughly.
-   type :: estimate_t
-      integer :: particles = 0
-      real(dp) :: dt = 0        !! largest step
-      real(dp) :: steps = 0
-      real(dp) :: ns = ns_constant   !! per particle-step and core
-      real(dp) :: seconds = 0   !! of wall time
-      real(dp) :: bytes = 0
-   end type estimate_t
-
 contains
 
-   !> Steps, time and memory from the particle count.
-   type(estimate_t) function estimate(scene, model, particles) result(cost)
-      type(settings_t), intent(in) :: scene
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: particles
-
-      cost%particles = particles
-      cost%dt = model%longest_step()
-      cost%steps = scene%time%end_time/(typical_step_share*cost%dt)
-      if (scene%time%max_steps > 0) cost%steps = min(cost%steps, real(scene%time%max_steps, dp))
-      if (model%dynamic) cost%ns = ns_dynamic
-      cost%ns = anint(cost%ns*scheme_cost(model))
-      cost%seconds = cost%steps*particles*cost%ns*1.0e-9_dp/omp_get_max_threads()
-      ! Slots of padding and images, neighbour ranges and sorting besides the particles' own.
-      cost%bytes = particles*(1.25_dp*bytes_per_slot(needed_features(scene)) + 60)
-   end function estimate
-
-   ! Cost of a step over that with rk4, frozen diffusion and h = 2 dx, as utils/studies/error_vs_time has measured it.
-   pure real(dp) function scheme_cost(model) result(factor)
-      type(model_t), intent(in) :: model
-
-      associate (stages => model%integrator%stages, ratio => model%kernel%h/model%dx)
-         factor = (0.32_dp + 0.17_dp*stages)*(0.46_dp + 0.135_dp*ratio**2)
-         if (.not. model%frozen) factor = factor*(1 + 0.24_dp*(stages - 1))
-      end associate
-   end function scheme_cost
-
    !> The box that a run starts with, and all that --check prints.
-   subroutine start_box(log, scene, model, cost)
+   subroutine start_box(log, scene, model, costs)
       type(log_t), intent(inout) :: log
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      type(estimate_t), intent(in) :: cost
+      type(cost_t), intent(in) :: costs
       character(160) :: lines(12)
 
-      lines(1) = 'particles     '//to_text(cost%particles)//', d/dx = '//short(scene%scene%resolution) &
+      lines(1) = 'particles     '//to_text(costs%particles)//', d/dx = '//short(scene%scene%resolution) &
                  //', h = '//short(model%kernel%h/model%dx)//' dx = '//short(model%kernel%h)
       lines(2) = 'fluid         c0 = '//short(model%c0)//', rho0 = '//short(model%rho0)//', g = '//short(model%gravity)
       lines(3) = 'diffusion     '//diffusion_text(scene, model)
       lines(4) = 'Reynolds      '//reynolds_text(scene, model)
       lines(5) = 'uses          '//used(scene, model)
       lines(6) = 'leaves out    '//left_out(scene, model)
-      lines(7) = 'step          dt <= '//short(cost%dt)//' (cfl '//short(cost%dt*model%c0/model%kernel%h)//'), about ' &
-                 //short(anint(cost%steps))//' steps to t = '//short(scene%time%end_time)
-      lines(8) = 'memory        about '//short(cost%bytes/1.0e6_dp)//' MB, '//short(anint(cost%bytes/cost%particles)) &
+      lines(7) = 'step          dt <= '//short(costs%dt)//' (cfl '//short(costs%dt*model%c0/model%kernel%h)//'), about ' &
+                 //short(anint(costs%steps))//' steps to t = '//short(scene%time%end_time)
+      lines(8) = 'memory        about '//short(costs%bytes/1.0e6_dp)//' MB, '//short(anint(costs%bytes/costs%particles)) &
                  //' bytes a particle'
-      lines(9) = 'run time      about '//duration_text(cost%seconds)//' on '//threads_text() &
-                 //' (at '//short(cost%ns)//' ns per particle-step and core)'
+      lines(9) = 'run time      about '//duration_text(costs%seconds)//' on '//threads_text() &
+                 //' (at '//short(anint(costs%ns))//' ns per particle-step and core)'
       lines(10) = 'output        '//output_text(scene)
       lines(11) = 'not written   '//not_written(scene)
       lines(12) = 'dynsph        '//version//' '//git_id//' '//build_type
@@ -315,6 +275,8 @@ contains
       call file%add('steps', run%step)
       call file%add('time', run%time)
       call file%add('threads', omp_get_max_threads())
+      call file%add('lanes', nl)
+      call file%add('root', root_name)
       call file%add('run_seconds', seconds)
       call file%add('particle_steps_per_second', rate)
       if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/rate)

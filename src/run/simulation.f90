@@ -1,5 +1,6 @@
 !> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
 module simulation
+   use cost, only: estimate_cost
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use images, only: bottom_wall
@@ -9,13 +10,14 @@ module simulation
    use particles, only: particles_t
    use progress, only: progress_t
    use recorder, only: recorder_t
-   use report, only: closing_table, estimate, start_box, write_summary_file
+   use report, only: closing_table, start_box, write_summary_file
    use result_directory, only: result_directory_t, summary_name
    use run_log, only: log_t
-   use scene_setup, only: set_up_particles
+   use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
    use step_check, only: check_step
    use text, only: short
+   use threads, only: limit_threads
    use time_step, only: advance, refresh, start_extremes, step_t
    use timers, only: timers_t, wall_seconds
    implicit none
@@ -49,10 +51,11 @@ contains
       real(dp) :: started, seconds
 
       began = .false.
+      call limit_threads(count_particles(scene))
+      call start_box(log, scene, model, estimate_cost(scene, model, count_particles(scene)))
       started = wall_seconds()
       call timers%initialise(phases)
       call set_up_particles(scene, model, p)
-      call start_box(log, scene, model, estimate(scene, model, p%n))
       call refresh(model, p, near, run, timers)
       if (run%scattered) then
          call problem%raise(exit_numerics, 'the fluid is further than 4 million strips (of height h) from y = ' &

@@ -4,6 +4,7 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
+   use candidates, only: block_slots
    use dissipation_sums, only: sum_dissipation
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
@@ -12,16 +13,16 @@ module time_step
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
-   use neighbours, only: list_ranges, neighbours_t, sort_particles
-   use particles, only: particles_t, swap_states
-   use runge_kutta, only: block_t, stage_state, update_cluster
+   use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
+   use particles, only: particles_t, state_t, swap_states
+   use runge_kutta, only: block_t, stage_state, update_block
+   use search_margins, only: lists_hold, plan_margins, watch_margins
    use timers, only: timers_t
    implicit none
    private
 
    public :: step_t, refresh, advance, start_extremes
 
-   integer, parameter :: block_clusters = 64   !! clusters that a thread takes at a time, and that sums go over
    real(dp), parameter :: grown = 1.01_dp      !! times its limit: a step that the margins of the limits still cover
    integer, parameter, public :: phase_sort = 1, phase_gradients = 2, phase_diffusion = 3, phase_stages = 4
 
@@ -33,6 +34,7 @@ module time_step
       integer(i8) :: crossings = 0          !! particles put back behind a wall
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
       integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
+      integer(i8) :: sorted = 0             !! times that particles were sorted and neighbours listed
       integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
@@ -78,34 +80,40 @@ contains
       run%largest_variation = max(run%largest_variation, run%variation)
    end subroutine take_extremes
 
-   !> Sorts the particles, mirrors them and lists neighbours: `base` is then the state at `time`.
+   !> Makes `next` the state at `time`, `base`, with its images and neighbours; sorts the particles if need be.
    subroutine refresh(model, p, near, run, timers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       type(timers_t), intent(inout) :: timers
-      real(dp) :: expected
+      real(dp) :: expected, span
 
       call timers%start(phase_sort)
-      near%slack = max(0.02_dp*model%dx, 2*near%stray)
-      expected = run%dt
-      if (run%step == 0) expected = model%longest_step()
-      call find_neighbours(model, p, near, run, expected)
+      if (run%step > 0 .and. lists_hold(near, run%dt)) then
+         call keep_order(near, p, model%walls, run%dt)
+         if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+      else
+         expected = run%dt
+         if (run%step == 0) expected = model%longest_step()
+         call plan_margins(near, model%dx, expected, span)
+         call find_neighbours(model, p, near, run, span)
+      end if
       call timers%stop(phase_sort)
    end subroutine refresh
 
-   subroutine find_neighbours(model, p, near, run, expected)
+   subroutine find_neighbours(model, p, near, run, span)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
-      real(dp), intent(in) :: expected
+      real(dp), intent(in) :: span   !! time that lists shall last
 
-      call sort_particles(near, p, model%kernel, model%walls, model%dx, expected, run%scattered)
+      call sort_particles(near, p, model%kernel, model%walls, model%dx, span, run%scattered)
       if (run%scattered) return
+      run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
-      call list_ranges(near, p, model%kernel, 2*near%tau)
+      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`.
@@ -122,12 +130,12 @@ contains
 
       at_most = last_time - run%time
       do
-         allocate (blocks((near%n_clusters + block_clusters - 1)/block_clusters))
+         allocate (blocks(near%n_blocks))
          call timers%start(phase_gradients)
          call first_sums(model, p, near, blocks)
          call timers%stop(phase_gradients)
          run%dt = min(stable_step(model, blocks), at_most)
-         if (run%dt - near%tau <= near%image_travel) then
+         if (in_reach(near, run%dt)) then
             call stages(model, p, near, run%dt, blocks, timers, strayed)
             if (strayed) then
                near%slack = 2*near%stray
@@ -150,6 +158,15 @@ contains
       run%step = run%step + 1
       run%time = run%time + run%dt
    end subroutine advance
+
+   ! Whether the lists, or lists that can be made anew of the images that there are, serve for a step.
+   pure logical function in_reach(near, dt)
+      type(neighbours_t), intent(in) :: near
+      real(dp), intent(in) :: dt
+
+      in_reach = near%age + dt - near%tau <= near%travel
+      if (.not. near%age > 0) in_reach = dt - near%tau <= near%image_travel
+   end function in_reach
 
    ! The step of eq. 8 and the diffusive limits.
    pure real(dp) function stable_step(model, blocks)
@@ -181,13 +198,11 @@ contains
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
       type(block_t), intent(inout) :: blocks(:)
-      integer :: b, c
+      integer :: b
 
-      !$omp parallel do default(none) shared(model, p, near, blocks) private(c) schedule(dynamic)
-      do b = 1, size(blocks)
-         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            call begin_frozen_terms(model, p, near, c, blocks(b))
-         end do
+      !$omp parallel do default(none) shared(model, p, near, blocks) schedule(dynamic)
+      do b = 1, near%n_blocks
+         call begin_frozen_terms(model, p, near, b, blocks(b))
       end do
       !$omp end parallel do
       if (p%features%diffusion) call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
@@ -203,12 +218,11 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(timers_t), intent(inout) :: timers
       logical, intent(out) :: strayed
-      integer :: stage
+      integer :: stage, k
 
-      ! The ranges hold from tau before to `travel` after the time that particles were sorted for.
-      if (dt - near%tau > near%travel) then
+      if (near%age + dt - near%tau > near%travel) then
          call timers%start(phase_sort)
-         call list_ranges(near, p, model%kernel, 1.1_dp*(dt - near%tau))
+         call list_neighbours(near, p, model%kernel, 1.1_dp*(dt - near%tau))
          call timers%stop(phase_sort)
       end if
       call timers%start(phase_diffusion)
@@ -224,8 +238,9 @@ contains
          end if
       end do
       call timers%stop(phase_stages)
-      near%stray = maxval(blocks%stray)
-      strayed = near%stray > near%slack
+      near%jumped = any(blocks%wrapped)
+      strayed = .not. watch_margins(near, model%integrator, dt, [(maxval(blocks%change(k)), k=1, model%integrator%stages)], &
+                                    maxval(blocks%jump))
       ! A solution that has left its range by so much is no better the second time.
       if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
    end subroutine stages
@@ -238,20 +253,30 @@ contains
       real(dp), intent(in) :: dt
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
-      integer :: b, c, i0
+      integer :: b, i0, n
 
-      !$omp parallel do default(none) shared(model, p, near, dt, blocks) private(c, i0, rates) schedule(dynamic)
-      do b = 1, size(blocks)
-         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            i0 = (c - 1)*nl
-            call complete_frozen_terms(model, p, near, c, blocks(b))
-            if (p%features%dissipation) call sum_dissipation(model, near%ranges(c), p, i0, p%dissipating(i0 + 1:i0 + nl))
-            rates = rates_t(p%next%u(i0 + 1:i0 + nl), p%next%v(i0 + 1:i0 + nl), p%next%s(i0 + 1:i0 + nl))
-            call update_cluster(model, p, i0, 1, dt, rates, blocks(b))
-         end do
+      !$omp parallel do default(none) shared(model, p, near, dt, blocks) private(i0, n, rates) schedule(dynamic)
+      do b = 1, near%n_blocks
+         i0 = (b - 1)*block_slots
+         n = nl*near%blocks(b)%n_clusters
+         call complete_frozen_terms(model, p, near, b, blocks(b))
+         if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
+         call take_kept(p%next, i0, n, rates)
+         call update_block(model, p, i0, n, 1, dt, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine first_stage
+
+   ! Rates of a block that a state's velocity and density have kept.
+   pure subroutine take_kept(state, i0, n, rates)
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: i0, n
+      type(rates_t), intent(inout) :: rates
+
+      rates%u(:n) = state%u(i0 + 1:i0 + n)
+      rates%v(:n) = state%v(i0 + 1:i0 + n)
+      rates%s(:n) = state%s(i0 + 1:i0 + n)
+   end subroutine take_kept
 
    ! Evaluates the rates at a stage's state and forms the next stage's, or the end of the step.
    subroutine later_stage(model, p, near, stage, dt, blocks)
@@ -263,19 +288,18 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
-      integer :: b, c, i0, now
+      integer :: b, i0, n, now
 
       now = stage_state(stage)
       call fill_images(near%images, model%walls, p%n_own, p%stage(now))
       !$omp parallel do default(none) shared(model, p, near, stage, now, dt, blocks) &
-      !$omp private(c, i0, sums, rates) schedule(dynamic)
-      do b = 1, size(blocks)
-         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            i0 = (c - 1)*nl
-            call sum_flow(model%kernel, near%ranges(c), p%stage(now), i0, sums)
-            call flow_rates(model, p%stage(now), i0, sums, rates)
-            call update_cluster(model, p, i0, stage, dt, rates, blocks(b))
-         end do
+      !$omp private(i0, n, sums, rates) schedule(dynamic)
+      do b = 1, near%n_blocks
+         i0 = (b - 1)*block_slots
+         n = nl*near%blocks(b)%n_clusters
+         call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
+         call flow_rates(model, p%stage(now), i0, n, sums, rates)
+         call update_block(model, p, i0, n, stage, dt, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine later_stage
@@ -291,7 +315,7 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(block_t) :: of_stage(size(blocks))
       type(rates_t) :: rates
-      integer :: b, c, i0, now, spare
+      integer :: b, i0, n, now, spare
 
       now = stage_state(stage)
       spare = 3 - now
@@ -300,11 +324,9 @@ contains
       call swap_states(p%next, p%stage(spare))
       if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
       call first_sums(model, p, near, of_stage)
-      !$omp parallel do default(none) shared(model, p, near, of_stage) private(c) schedule(dynamic)
-      do b = 1, size(of_stage)
-         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            call complete_frozen_terms(model, p, near, c, of_stage(b))
-         end do
+      !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
+      do b = 1, near%n_blocks
+         call complete_frozen_terms(model, p, near, b, of_stage(b))
       end do
       !$omp end parallel do
       call swap_states(p%base, p%stage(now))
@@ -312,15 +334,12 @@ contains
       blocks%wall_power = blocks%wall_power + model%integrator%weight(stage)*of_stage%wall_power
       blocks%largest_alpha = max(blocks%largest_alpha, of_stage%largest_alpha)
       blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
-      !$omp parallel do default(none) shared(model, p, near, stage, spare, dt, blocks) private(c, i0, rates) schedule(dynamic)
-      do b = 1, size(blocks)
-         do c = (b - 1)*block_clusters + 1, min(b*block_clusters, near%n_clusters)
-            i0 = (c - 1)*nl
-            associate (kept => p%stage(spare))
-               rates = rates_t(kept%u(i0 + 1:i0 + nl), kept%v(i0 + 1:i0 + nl), kept%s(i0 + 1:i0 + nl))
-            end associate
-            call update_cluster(model, p, i0, stage, dt, rates, blocks(b))
-         end do
+      !$omp parallel do default(none) shared(model, p, near, stage, spare, dt, blocks) private(i0, n, rates) schedule(dynamic)
+      do b = 1, near%n_blocks
+         i0 = (b - 1)*block_slots
+         n = nl*near%blocks(b)%n_clusters
+         call take_kept(p%stage(spare), i0, n, rates)
+         call update_block(model, p, i0, n, stage, dt, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine whole_stage

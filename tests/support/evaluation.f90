@@ -1,10 +1,11 @@
 !> One evaluation of all right-hand sides by the code's own procedures, in the order of the particles' numbers.
 module evaluation
+   use candidates, only: block_slots
    use diffusion, only: freeze_density_diffusion, freeze_gradient, freeze_viscosity
    use diffusion_sums, only: sum_diffusion
-   use flow, only: as_flow_sums, flow_rates, rates_t
+   use first_sums, only: first_sums_t, pass_constant, sum_first
+   use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
-   use gradient_sums, only: gradient_sums_t, sum_gradients
    use images, only: fill_image_gradients, walls_t
    use kinds, only: dp
    use lanes, only: nl
@@ -21,7 +22,7 @@ module evaluation
    type :: evaluation_t
       type(points_t) :: at                                  !! the state that all this belongs to
       real(dp), allocatable :: divergence(:), force(:, :)   !! by module flow_sums
-      real(dp), allocatable :: first_divergence(:), first_force(:, :)   !! by module gradient_sums
+      real(dp), allocatable :: first_divergence(:), first_force(:, :)   !! by module first_sums
       real(dp), allocatable :: matrix(:, :), density(:, :), density_0(:), kernel(:, :), viscous(:, :), largest_pi(:)
       real(dp), allocatable :: acceleration(:, :), rate(:)  !! inviscid du/dt without gravity, drho/dt
       real(dp), allocatable :: viscosity(:, :)              !! frozen acceleration
@@ -39,8 +40,8 @@ contains
       type(neighbours_t), intent(in) :: near
       type(evaluation_t), intent(out) :: found
       type(walls_t), intent(in), optional :: gradient_walls   !! for the images' gradients, if not the model's
-      real(dp) :: neighbour_gradient(nl)
-      integer :: c, l, i0
+      real(dp) :: neighbour_gradient(block_slots)
+      integer :: b, l, i0, n
 
       found%at = points_of(p)
       associate (n => p%n)
@@ -49,52 +50,52 @@ contains
                    found%largest_pi(n), found%acceleration(2, n), found%rate(n), found%viscosity(2, n), &
                    found%gradient(2, n), found%diffusion(n))
       end associate
-      do c = 1, near%n_clusters
-         call evaluate_cluster(model, p, near, c, found)
+      do b = 1, near%n_blocks
+         call evaluate_block(model, p, near, b, found)
       end do
       if (present(gradient_walls)) then
          call fill_image_gradients(near%images, gradient_walls, p%n_own, p%grad_x, p%grad_y)
       else
          call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
       end if
-      do c = 1, near%n_clusters
-         i0 = (c - 1)*nl
-         call sum_diffusion(model%kernel, near%ranges(c), p, i0, neighbour_gradient)
-         call freeze_density_diffusion(model, neighbour_gradient, p, i0)
-         do l = 1, nl
+      do b = 1, near%n_blocks
+         i0 = (b - 1)*block_slots
+         n = nl*near%blocks(b)%n_clusters
+         call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
+         call freeze_density_diffusion(model, neighbour_gradient, p, i0, n)
+         do l = 1, n
             if (p%id(i0 + l) > 0) found%diffusion(p%id(i0 + l)) = p%diff_s(i0 + l)
          end do
       end do
    end subroutine evaluate
 
    ! All that needs no gradient of a neighbour.
-   subroutine evaluate_cluster(model, p, near, c, found)
+   subroutine evaluate_block(model, p, near, b, found)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: c
+      integer, intent(in) :: b                !! number of the block
       type(evaluation_t), intent(inout) :: found
-      type(gradient_sums_t) :: sums
-      type(flow_sums_t) :: flow, first
+      type(first_sums_t) :: sums
+      type(flow_sums_t) :: flow
       type(rates_t) :: rates
-      integer :: i, l, i0, singular
+      integer :: i, i0, l, n
 
-      i0 = (c - 1)*nl
-      call sum_gradients(model%kernel, near%ranges(c), p%base, p%owner, i0, sums)
-      call sum_flow(model%kernel, near%ranges(c), p%base, i0, flow)
-      first = as_flow_sums(sums, p%base, i0)
-      call flow_rates(model, p%base, i0, flow, rates)
-      call freeze_viscosity(model, sums%viscous_x, sums%viscous_y, p, i0)
-      call freeze_gradient(model, sums, p, i0, singular)
-      found%singular = found%singular + singular
+      i0 = (b - 1)*block_slots
+      n = nl*near%blocks(b)%n_clusters
+      call sum_first(pass_constant, model%kernel, near%blocks(b), p, near%images%source, i0, sums)
+      call sum_flow(model%kernel, near%blocks(b), p%base, i0, flow)
+      call flow_rates(model, p%base, i0, n, flow, rates)
+      call freeze_viscosity(model, model%alpha, sums%viscous_x, sums%viscous_y, p, i0, n)
+      call freeze_gradient(model, sums, p, i0, n, found%singular)
       associate (f => model%kernel%gradient_factor)
-         do l = 1, nl
+         do l = 1, n
             i = p%id(i0 + l)
             if (i == 0) cycle
             found%divergence(i) = f*flow%divergence(l)
             found%force(:, i) = f*[flow%force_x(l), flow%force_y(l)]
-            found%first_divergence(i) = f*first%divergence(l)
-            found%first_force(:, i) = f*[first%force_x(l), first%force_y(l)]
+            found%first_divergence(i) = f*sums%divergence(l)
+            found%first_force(:, i) = f*[sums%force_x(l), sums%force_y(l)]
             found%matrix(:, i) = f*[sums%matrix_xx(l), sums%matrix_xy(l), sums%matrix_yy(l)]
             found%density(:, i) = f*[sums%density_x(l), sums%density_y(l)]
             found%density_0(i) = f*sums%density_0(l)
@@ -107,6 +108,6 @@ contains
             found%gradient(:, i) = [p%grad_x(i0 + l), p%grad_y(i0 + l)]
          end do
       end associate
-   end subroutine evaluate_cluster
+   end subroutine evaluate_block
 
 end module evaluation

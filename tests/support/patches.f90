@@ -1,12 +1,13 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
+   use candidates, only: block_clusters
    use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp, i8
    use linear_stability, only: stability_t
    use model, only: model_t
-   use neighbours, only: list_ranges, neighbours_t, sort_particles
+   use neighbours, only: list_neighbours, neighbours_t, sort_particles
    use particles, only: allocate_particles, features_t, particles_t
    use square_lattice, only: lattice_crowd
    implicit none
@@ -14,7 +15,7 @@ module patches
 
    public :: random_t, points_t, empty_points, open_model, tank_model, box_model, channel_model, make_dynamic
    public :: fill_patch, put_particles
-   public :: set_linear_density, find_neighbours, points_of, with_images, without_slip, scatter
+   public :: set_linear_density, find_neighbours, candidates_of, points_of, with_images, without_slip, scatter
 
    real(dp), parameter, public :: spacing = 0.05_dp                    !! dx of the models below
    real(dp), parameter, public :: tank_width = 0.6873_dp               !! no multiple of dx
@@ -172,8 +173,21 @@ contains
       if (present(slack)) near%slack = slack
       call sort_particles(near, p, model%kernel, model%walls, model%dx, step_ahead, scattered)
       if (scattered) error stop 'the test''s particles are too far from each other'
-      call list_ranges(near, p, model%kernel, 2*near%tau)
+      call list_neighbours(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
+
+   !> The slots that a cluster is to visit; clusters are counted through all blocks.
+   pure function candidates_of(near, cluster) result(slots)
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: cluster
+      integer, allocatable :: slots(:)
+      integer :: b
+
+      b = (cluster - 1)/block_clusters + 1
+      associate (block => near%blocks(b), c => cluster - (b - 1)*block_clusters)
+         slots = block%slot(block%first(c):block%first(c + 1) - 1)
+      end associate
+   end function candidates_of
 
    !> The base state in the order of the particles' numbers.
    type(points_t) function points_of(p) result(points)

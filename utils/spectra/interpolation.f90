@@ -9,7 +9,7 @@ module interpolation
    use kernel, only: kernel_t, kernel_value, new_kernel
    use kinds, only: dp
    use model, only: model_t
-   use neighbours, only: list_ranges, neighbours_t, ranges_around, sort_particles
+   use neighbours, only: list_neighbours, neighbours_t, ranges_around, sort_particles
    use particle_snapshot, only: particle_snapshot_t
    use particles, only: allocate_particles, particles_t
    use point_sums, only: sum_at
@@ -68,7 +68,7 @@ contains
             call problem%raise(exit_files, 'some particles are too far from the others to be sorted')
             return
          end if
-         call list_ranges(near, fluid%p, model%kernel, 0.0_dp)
+         call list_neighbours(near, fluid%p, model%kernel, 0.0_dp)
       end associate
    end subroutine sort_fluid
 

@@ -1,0 +1,28 @@
+!> Harmonic means of two particles' coefficients.
+!!
+!! Source: eqs. 25 and 26, 2 a b/(a + b).
+module harmonic_means
+   use kinds, only: dp
+   implicit none
+   private
+
+   public :: mean_coefficients
+
+   real(dp), parameter :: nothing = 1.0e-60_dp   !! makes the mean of 0 and 0 vanish; its square can be divided by
+
+contains
+
+   !> alpha_ij and delta_ij, 0 where one of the two is 0. One division serves both.
+   elemental subroutine mean_coefficients(alpha_i, alpha_j, delta_i, delta_j, alpha_ij, delta_ij)
+      real(dp), intent(in) :: alpha_i, alpha_j, delta_i, delta_j   !! >= 0
+      real(dp), intent(out) :: alpha_ij, delta_ij
+      real(dp) :: alpha_sum, delta_sum, both
+
+      alpha_sum = alpha_i + alpha_j + nothing
+      delta_sum = delta_i + delta_j + nothing
+      both = 2/(alpha_sum*delta_sum)
+      alpha_ij = (alpha_i*alpha_j)*(delta_sum*both)
+      delta_ij = (delta_i*delta_j)*(alpha_sum*both)
+   end subroutine mean_coefficients
+
+end module harmonic_means

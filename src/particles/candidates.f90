@@ -1,0 +1,153 @@
+!> The slots that a cluster's particles may come close to during a step: listed once, visited by every pass over pairs.
+!!
+!! Clusters are dealt with in blocks of a fixed number of slots, whatever the number of threads: a block has the lists of
+!! its clusters, and is what sums over particles go over first.
+module candidates
+   use kinds, only: dp, i8
+   use lanes, only: nl
+   use particles, only: far_away
+   use strips, only: extent_t, group_slots, ranges_t
+   implicit none
+   private
+
+   public :: candidates_t, list_group, trim_lists
+
+   integer, parameter, public :: block_slots = 128                 !! slots in a block
+   integer, parameter, public :: block_clusters = block_slots/nl   !! clusters in a block
+   integer, parameter, public :: block_groups = block_slots/group_slots   !! groups, which ranges are found for
+   integer, parameter :: group_clusters = group_slots/nl
+
+   !> The lists of a block, one cluster's behind the other's.
+   type :: candidates_t
+      integer :: n_clusters = 0                       !! all but the last block are full
+      integer :: first(block_clusters + 1) = 1        !! where a cluster's list begins in `slot`
+      integer :: first_image(block_clusters) = 1      !! where its images begin: they come last
+      integer, allocatable :: slot(:)
+   contains
+      procedure :: bytes => candidates_bytes
+   end type candidates_t
+
+contains
+
+   !> Bytes that a block takes.
+   pure elemental integer(i8) function candidates_bytes(self) result(bytes)
+      class(candidates_t), intent(in) :: self
+
+      bytes = storage_size(self, kind=i8)/8
+      if (allocated(self%slot)) bytes = bytes + size(self%slot, kind=i8)*storage_size(self%slot)/8
+   end function candidates_bytes
+
+   !> Lists, for each cluster of the block's next group, what of the ranges may come closer than `reach` to one of its particles
+   !! while all move on for up to `travel`, forwards or backwards, from where they are predicted.
+   !!
+   !! Two particles come closer by no more than their relative velocity times `travel`; that velocity is taken from the box
+   !! of the group's velocities.
+   pure subroutine list_group(self, group, own, images, n, x, y, u, v, i0, extent, reach, travel)
+      type(candidates_t), intent(inout) :: self
+      integer, intent(in) :: group                 !! 1 for the block's first
+      type(ranges_t), intent(in) :: own, images
+      integer, intent(in) :: n                     !! slots that there are; group_slots - 1 behind a range are looked at
+      real(dp), intent(in) :: x(n), y(n)           !! predicted positions
+      real(dp), intent(in) :: u(n), v(n)
+      integer, intent(in) :: i0                    !! slot before the group's first
+      type(extent_t), intent(in) :: extent         !! the group's velocities
+      real(dp), intent(in) :: reach, travel
+      integer :: begin(group_clusters), listed(group_clusters)   ! places before a list's first, of its last
+      integer :: c0, m, room, n_here
+
+      c0 = (group - 1)*group_clusters
+      self%n_clusters = c0 + group_clusters
+      room = sum(own%last(:own%n) - own%first(:own%n) + 1) + sum(images%last(:images%n) - images%first(:images%n) + 1) &
+             + group_slots
+      begin = self%first(c0 + 1) - 1 + [((m - 1)*room, m=1, group_clusters)]
+      call make_room(self%slot, begin(1), group_clusters*room)
+      listed = begin
+      call pick(own, n, x, y, u, v, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, reach, travel, size(self%slot), &
+                self%slot, listed)
+      self%first_image(c0 + 1:c0 + group_clusters) = listed - begin
+      call pick(images, n, x, y, u, v, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, reach, travel, size(self%slot), &
+                self%slot, listed)
+      ! The lists were written with room between them.
+      do m = 1, group_clusters
+         associate (first => self%first(c0 + m))
+            n_here = listed(m) - begin(m)
+            if (m > 1) self%slot(first:first + n_here - 1) = self%slot(begin(m) + 1:listed(m))
+            self%first_image(c0 + m) = first + self%first_image(c0 + m)
+            self%first(c0 + m + 1) = first + n_here
+         end associate
+      end do
+   end subroutine list_group
+
+   ! From ranges of slots, in whole vectors. Neither loop has a branch: the first would not be vectorised, because of which it
+   ! takes the sign of `beyond` instead of a comparison; the second writes every slot, and keeps it if it is near.
+   pure subroutine pick(ranges, n, x, y, u, v, xi, yi, slowest, fastest, reach, travel, room, slot, listed)
+      type(ranges_t), intent(in) :: ranges
+      integer, intent(in) :: n, room
+      real(dp), intent(in) :: x(n), y(n), u(n), v(n), xi(nl, group_clusters), yi(nl, group_clusters)
+      real(dp), intent(in) :: slowest(2), fastest(2), reach, travel
+      integer, intent(inout) :: slot(room), listed(group_clusters)
+      integer :: k, j0, j, l, m
+      real(dp), parameter :: lane(group_slots) = [(real(j, dp), j=1, group_slots)]
+      real(dp) :: near, least, beyond, left
+      integer(i8) :: is_near(group_slots, group_clusters), place
+
+      do k = 1, ranges%n
+         do j0 = ranges%first(k) - 1, ranges%last(k) - 1, group_slots
+            left = ranges%last(k) - j0
+            !$omp simd private(m, near, least, beyond)
+            do j = 1, group_slots
+               near = reach + travel*(max(u(j0 + j) - slowest(1), fastest(1) - u(j0 + j)) &
+                                      + max(v(j0 + j) - slowest(2), fastest(2) - v(j0 + j)))
+               !GCC$ unroll 8
+               do m = 1, group_clusters
+                  least = (x(j0 + j) - xi(1, m))**2 + (y(j0 + j) - yi(1, m))**2
+                  !GCC$ unroll 8
+                  do l = 2, nl
+                     least = min(least, (x(j0 + j) - xi(l, m))**2 + (y(j0 + j) - yi(l, m))**2)
+                  end do
+                  beyond = least - near*near + far_away**2*max(0.0_dp, lane(j) - left)
+                  is_near(j, m) = shiftr(transfer(beyond, 1_i8), 63)
+               end do
+            end do
+            !GCC$ unroll 8
+            do m = 1, group_clusters
+               place = listed(m)
+               !GCC$ unroll 8
+               do j = 1, group_slots
+                  slot(place + 1) = j0 + j
+                  place = place + is_near(j, m)
+               end do
+               listed(m) = int(place)
+            end do
+         end do
+      end do
+   end subroutine pick
+
+   !> Gives back what a block has much more of than its lists take.
+   pure subroutine trim_lists(self)
+      type(candidates_t), intent(inout) :: self
+      integer, allocatable :: fitting(:)
+
+      associate (listed => self%first(self%n_clusters + 1) - 1)
+         if (size(self%slot) <= listed + listed/3) return
+         allocate (fitting(listed + listed/5))
+         fitting(:listed) = self%slot(:listed)
+         call move_alloc(fitting, self%slot)
+      end associate
+   end subroutine trim_lists
+
+   ! Room for `more` numbers behind the first `used`, which are kept.
+   pure subroutine make_room(slot, used, more)
+      integer, allocatable, intent(inout) :: slot(:)
+      integer, intent(in) :: used, more
+      integer, allocatable :: larger(:)
+
+      if (allocated(slot)) then
+         if (used + more <= size(slot)) return
+      end if
+      allocate (larger(used + more + (used + more)/16))
+      if (used > 0) larger(:used) = slot(:used)
+      call move_alloc(larger, slot)
+   end subroutine make_room
+
+end module candidates
