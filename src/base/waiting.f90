@@ -3,7 +3,7 @@
 !! A thread of gfortran's OpenMP library that waits for the others keeps its core busy for milliseconds. On a machine whose cores
 !! have other work too, those that are waited for do not get on meanwhile, and a run takes many times as long as it need.
 module waiting
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
    implicit none
    private
 
@@ -15,6 +15,13 @@ module waiting
          character(kind=c_char), intent(in) :: name(*), value(*)
          integer(c_int), value :: overwrite
       end function setenv
+
+      integer(c_size_t) function readlink(link, path, room) bind(c)
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(in) :: link(*)
+         character(kind=c_char), intent(inout) :: path(*)
+         integer(c_size_t), value :: room
+      end function readlink
 
       integer(c_int) function execv(path, arguments) bind(c)
          import :: c_char, c_int, c_ptr
@@ -32,6 +39,7 @@ contains
    subroutine sleep_while_waiting()
       character(kind=c_char), allocatable, target :: words(:, :)
       type(c_ptr), allocatable :: arguments(:)
+      character(kind=c_char) :: path(4096)
       character(:), allocatable :: word
       integer :: k, n, longest, length
       integer(c_int) :: status
@@ -54,8 +62,11 @@ contains
       end do
       arguments(n + 1) = c_null_ptr
       status = setenv('GOMP_SPINCOUNT'//c_null_char, '10000'//c_null_char, 0_c_int)
+      ! The name of the link would be the process's name.
+      path = c_null_char
+      if (readlink('/proc/self/exe'//c_null_char, path, size(path, kind=c_size_t) - 1) <= 0) return
       ! Returns only if it fails.
-      if (status == 0) status = execv('/proc/self/exe'//c_null_char, arguments)
+      if (status == 0) status = execv(path, arguments)
    end subroutine sleep_while_waiting
 
    logical function is_set(name)

@@ -1,7 +1,7 @@
 !> Particle arrays: one slot a particle, own particles first, mirror images after them.
 !!
 !! Own slots are filled strip by strip (module `strips`), each strip padded to whole
-!! clusters of `nl` slots with dummies: far away, without volume, id 0.
+!! groups of slots with dummies: far away, without volume, id 0.
 module particles
    use kinds, only: dp, i8, sp
    use lanes, only: nl
@@ -33,7 +33,7 @@ module particles
    type :: particles_t
       type(features_t) :: features
       integer :: n = 0          !! real particles
-      integer :: n_own = 0      !! own slots, padding included: a multiple of nl
+      integer :: n_own = 0      !! own slots, padding included: whole groups
       integer :: n_slots = 0    !! own slots and images
       integer :: capacity = 0   !! slots allocated
       integer :: bytes_per_slot = 0   !! in all arrays below

@@ -15,8 +15,8 @@ module search_margins
    integer, parameter :: most_steps = 8           !! that lists are kept for
    real(dp), parameter :: least_slack = 0.02_dp   !! in dx
    real(dp), parameter :: safety = 2.5_dp         !! times the way that the accelerations of the lists before would lead
-   ! Sorting and listing take a third of the time of a step's pair loops, and a slack of 0.01 dx makes these 1 % longer (measured,
-   ! docs/results.md). So n steps from one list cost 1/(3 n) + safety a (n dt)**2/dx, least for this times (dx/(a dt**2))**(1/3).
+   ! Sorting and listing take a third of the time of a step's pair loops, and a slack of 0.01 dx makes these 1 % longer (measured).
+   ! So n steps from one list cost 1/(3 n) + safety a (n dt)**2/(2 dx) of them each: least for this times (dx/(a dt**2))**(1/3).
    real(dp), parameter :: cheapest = 0.52_dp
 
 contains

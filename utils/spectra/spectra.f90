@@ -6,12 +6,14 @@ program spectra
    use program_arguments, only: take_arguments
    use text, only: quoted
    use vorticity_command, only: run_vorticity_command
+   use waiting, only: sleep_while_waiting
    implicit none
 
    type(failure) :: problem
    character(:), allocatable :: arguments(:)   ! behind the command
    character(16) :: command
 
+   call sleep_while_waiting()
    call take_arguments(arguments, from=2)
    command = '--help'
    if (command_argument_count() > 0) call get_command_argument(1, command)
