@@ -9,7 +9,7 @@ module kernel
    implicit none
    private
 
-   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, pair, root
+   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, pair, squared_distance, root
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -69,7 +69,7 @@ contains
       real(dp), intent(out) :: inverse_2        !! 1/r**2
       real(dp) :: z, r, inverse, t
 
-      z = dx*dx + (dy*dy + nothing)
+      z = squared_distance(dx, dy)
       if (hardware_root) then
          r = sqrt(z)
          inverse_2 = 1/z
@@ -80,6 +80,13 @@ contains
       t = max(0.0_dp, 1 - inverse_support*r)
       weight = t*t*(t*volume)
    end subroutine pair
+
+   !> r**2, not 0 where two particles stand in the same place.
+   elemental real(dp) function squared_distance(dx, dy) result(z)
+      real(dp), intent(in) :: dx, dy   !! r_j - r_i
+
+      z = dx*dx + (dy*dy + nothing)
+   end function squared_distance
 
    !> sqrt(z) and 1/sqrt(z) of z > 0 to 2e-14, by multiplications alone.
    !!

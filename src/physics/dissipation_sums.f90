@@ -41,7 +41,7 @@ contains
       type(particles_t), intent(in) :: p
       integer, intent(in) :: c, i0
       real(dp), intent(out) :: total(nl)
-      real(dp) :: alpha(nl), delta(nl), e_i(nl), e_j, jump(2)
+      real(dp) :: alpha(nl), delta(nl), unused(nl), e_i(nl), e_j, jump(2)
       integer :: k, j
 
       e_i = p%base%s(i0 + 1:i0 + nl)/(model%rho0 + p%base%s(i0 + 1:i0 + nl))
@@ -52,7 +52,8 @@ contains
       do k = block%first(c), block%first(c + 1) - 1
          j = block%slot(k)
          if (model%dynamic) then
-            call mean_coefficients(p%alpha(i0 + 1:i0 + nl), p%alpha(j), p%delta(i0 + 1:i0 + nl), p%delta(j), alpha, delta)
+            call mean_coefficients(p%alpha(i0 + 1:i0 + nl), p%alpha(j), p%delta(i0 + 1:i0 + nl), p%delta(j), 1.0_dp, alpha, delta, &
+                                   unused)
             alpha = model%alpha + alpha
          end if
          if (p%features%no_slip) jump = [p%jump_u(j), p%jump_v(j)]

@@ -5,7 +5,7 @@
 module eddy_sums
    use candidates, only: block_slots, candidates_t
    use harmonic_means, only: mean_coefficients
-   use kernel, only: kernel_t, pair
+   use kernel, only: kernel_t, pair, squared_distance
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: particles_t
@@ -49,7 +49,7 @@ contains
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), gx(n), gy(n), a(n), d(n), alpha, inverse_support
       real(dp), dimension(nl), intent(out) :: diffusion, viscous_x, viscous_y
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, gxi, gyi, ai, di, total, ax, ay
-      real(dp) :: dx, dy, g, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij
+      real(dp) :: dx, dy, g, unused, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij
       integer :: k, j, l
 
       xi = x(i0 + 1:i0 + nl)
@@ -66,12 +66,12 @@ contains
       ay = 0
       do k = 1, n_near
          j = near(k)
-         !$omp simd private(dx, dy, g, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij)
+         !$omp simd private(dx, dy, g, unused, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij)
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
-            call pair(dx, dy, inverse_support, w(j), g, inverse_2)
-            call mean_coefficients(ai(l), a(j), di(l), d(j), alpha_ij, delta_ij)
+            call pair(dx, dy, inverse_support, w(j), g, unused)
+            call mean_coefficients(ai(l), a(j), di(l), d(j), squared_distance(dx, dy), alpha_ij, delta_ij, inverse_2)
             d_ij = 2*(s(j) - si(l)) - ((gxi(l) + gx(j))*dx + (gyi(l) + gy(j))*dy)
             total(l) = total(l) + delta_ij*(d_ij*g)
             pi_ij = ((u(j) - ui(l))*dx + (v(j) - vi(l))*dy)*inverse_2

@@ -7,7 +7,7 @@ module no_slip_sums
    use candidates, only: block_slots, candidates_t
    use first_sums, only: first_sums_t
    use harmonic_means, only: mean_coefficients
-   use kernel, only: kernel_t, pair
+   use kernel, only: kernel_t, pair, squared_distance
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: particles_t
@@ -73,8 +73,9 @@ contains
             do l = (c - 1)*nl + 1, c*nl
                dx = p%base%x(j) - p%base%x(i0 + l)
                dy = p%base%y(j) - p%base%y(i0 + l)
-               call pair(dx, dy, kernel%inverse_support, p%base%w(j), g, inverse_2)
-               call mean_coefficients(p%alpha(i0 + l), p%alpha(j), 1.0_dp, 1.0_dp, alpha_ij, unused)
+               call pair(dx, dy, kernel%inverse_support, p%base%w(j), g, unused)
+               call mean_coefficients(p%alpha(i0 + l), p%alpha(j), 1.0_dp, 1.0_dp, squared_distance(dx, dy), alpha_ij, unused, &
+                                      inverse_2)
                f = (alpha + alpha_ij)*(p%jump_u(j)*dx + p%jump_v(j)*dy)*inverse_2*g
                sums%x(l) = sums%x(l) + f*dx
                sums%y(l) = sums%y(l) + f*dy

@@ -288,6 +288,7 @@ contains
       call file%add('sound_speed_needed_mach', sound_speed_for_mach(recorder%head%sound_speed, run))
       call file%add('wall_crossings', run%crossings)
       call file%add('singular_gradients', run%singular)
+      call file%add('times_sorted', run%sorted)
       call file%add('steps_repeated', run%repeated)
       call file%add('steps_limited', run%limited)
       call recorder%errors%add_to(file)
