@@ -140,8 +140,9 @@ contains
       end do
       figures%parallel = median(parallel*figures%step(1)/table(5, :, 1))
       figures%apart = median(apart)
-      figures%pairs = median(pairs)
-      figures%limit = median(limit)
+      ! Of what was timed within the same seconds.
+      figures%pairs = median(pairs*figures%step(1)/table(5, :, 1))
+      figures%limit = median(limit*figures%step(1)/table(5, :, 1))
       call print_figures(figures, n_threads, p)
       write (output_unit, '(a, l1)') 'bit-equal ', equal
       call print_lanes(figures, counted, real(after%step - run%step, dp)/max(1, int(after%sorted - run%sorted)))
