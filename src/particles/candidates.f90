@@ -37,21 +37,22 @@ contains
       if (allocated(self%slot)) bytes = bytes + size(self%slot, kind=i8)*storage_size(self%slot)/8
    end function candidates_bytes
 
-   !> Lists, for each cluster of the block's next group, what of the ranges may come closer than `reach` to one of its particles
-   !! while all move on for up to `travel`, forwards or backwards, from where they are predicted.
+   !> Lists, for each cluster of the block's next group, what of the ranges may come closer than `support` to one of its
+   !! particles while all move on for up to `travel`, forwards or backwards, from where they are predicted.
    !!
-   !! Two particles come closer by no more than their relative velocity times `travel`; that velocity is taken from the box
-   !! of the group's velocities.
-   pure subroutine list_group(self, group, own, images, n, x, y, u, v, i0, extent, reach, travel)
+   !! Two particles come closer by no more than their relative velocity times `travel`, and by their slack; that velocity is
+   !! taken from the box of the group's velocities.
+   pure subroutine list_group(self, group, own, images, n, x, y, u, v, slack, i0, extent, support, travel)
       type(candidates_t), intent(inout) :: self
       integer, intent(in) :: group                 !! 1 for the block's first
       type(ranges_t), intent(in) :: own, images
       integer, intent(in) :: n                     !! slots that there are; group_slots - 1 behind a range are looked at
       real(dp), intent(in) :: x(n), y(n)           !! predicted positions
       real(dp), intent(in) :: u(n), v(n)
+      real(dp), intent(in) :: slack(n)
       integer, intent(in) :: i0                    !! slot before the group's first
-      type(extent_t), intent(in) :: extent         !! the group's velocities
-      real(dp), intent(in) :: reach, travel
+      type(extent_t), intent(in) :: extent         !! the group's velocities and slack
+      real(dp), intent(in) :: support, travel
       integer :: begin(group_clusters), listed(group_clusters)   ! places before a list's first, of its last
       integer :: c0, m, room, n_here
 
@@ -62,11 +63,11 @@ contains
       begin = self%first(c0 + 1) - 1 + [((m - 1)*room, m=1, group_clusters)]
       call make_room(self%slot, begin(1), group_clusters*room)
       listed = begin
-      call pick(own, n, x, y, u, v, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, reach, travel, size(self%slot), &
-                self%slot, listed)
+      call pick(own, n, x, y, u, v, slack, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, support + extent%slack, &
+                travel, size(self%slot), self%slot, listed)
       self%first_image(c0 + 1:c0 + group_clusters) = listed - begin
-      call pick(images, n, x, y, u, v, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, reach, travel, size(self%slot), &
-                self%slot, listed)
+      call pick(images, n, x, y, u, v, slack, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, support + extent%slack, &
+                travel, size(self%slot), self%slot, listed)
       ! The lists were written with room between them.
       do m = 1, group_clusters
          associate (first => self%first(c0 + m))
@@ -80,10 +81,10 @@ contains
 
    ! From ranges of slots, in whole vectors. Neither loop has a branch: the first would not be vectorised, because of which it
    ! takes the sign of `beyond` instead of a comparison; the second writes every slot, and keeps it if it is near.
-   pure subroutine pick(ranges, n, x, y, u, v, xi, yi, slowest, fastest, reach, travel, room, slot, listed)
+   pure subroutine pick(ranges, n, x, y, u, v, slack, xi, yi, slowest, fastest, reach, travel, room, slot, listed)
       type(ranges_t), intent(in) :: ranges
       integer, intent(in) :: n, room
-      real(dp), intent(in) :: x(n), y(n), u(n), v(n), xi(nl, group_clusters), yi(nl, group_clusters)
+      real(dp), intent(in) :: x(n), y(n), u(n), v(n), slack(n), xi(nl, group_clusters), yi(nl, group_clusters)
       real(dp), intent(in) :: slowest(2), fastest(2), reach, travel
       integer, intent(inout) :: slot(room), listed(group_clusters)
       integer :: k, j0, j, l, m
@@ -96,8 +97,8 @@ contains
             left = ranges%last(k) - j0
             !$omp simd private(m, near, least, beyond)
             do j = 1, group_slots
-               near = reach + travel*(max(u(j0 + j) - slowest(1), fastest(1) - u(j0 + j)) &
-                                      + max(v(j0 + j) - slowest(2), fastest(2) - v(j0 + j)))
+               near = reach + slack(j0 + j) + travel*(max(u(j0 + j) - slowest(1), fastest(1) - u(j0 + j)) &
+                                                         + max(v(j0 + j) - slowest(2), fastest(2) - v(j0 + j)))
                !GCC$ unroll 8
                do m = 1, group_clusters
                   least = (x(j0 + j) - xi(1, m))**2 + (y(j0 + j) - yi(1, m))**2

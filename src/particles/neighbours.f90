@@ -2,18 +2,32 @@
 !!
 !! In a time t a particle goes from x to about x + u t. Sorting by the position predicted for the middle of the steps that the
 !! lists are for, x + u tau, halves the margin that lists need. `list_neighbours` is told how long before or after that time its
-!! lists are to hold, and allows for accelerations by `slack`; the time step verifies both, and sorts again in time.
+!! lists are to hold, and allows for accelerations by a slack of each block; the time step verifies both, and has lists made again
+!! in time.
 module neighbours
    use candidates, only: block_groups, block_slots, candidates_t, list_group, trim_lists
    use images, only: bottom_wall, fill_images, images_t, list_images, walls_t
    use kernel, only: kernel_t
    use kinds, only: dp, i8, sp
-   use particles, only: far_away, particles_t, reserve_slots, swap_states
+   use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
    private
 
-   public :: neighbours_t, sort_particles, keep_order, list_neighbours, ranges_around
+   public :: neighbours_t, margin_t, sort_particles, keep_order, list_neighbours, ranges_around
+
+   real(dp), parameter :: image_slack = 0.125_dp   ! in supports, at least: images are few
+
+   !> How far accelerations may lead the particles of a block away from where they would be with the velocity that they had
+   !! when they were sorted, and how far they have.
+   type :: margin_t
+      real(dp) :: slack = 0          !! length that the lists allow for
+      real(dp) :: unsure = 0         !! length by which the way that lists were made from may be beside the true one
+      real(dp) :: stray = 0          !! length until the base state, at most
+      real(dp) :: next_stray = 0     !! and until the next one
+      real(dp) :: drift = 0          !! max |u - u when sorted|, mean of the last step
+      real(dp) :: acceleration = 0   !! largest since the particles were sorted
+   end type margin_t
 
    !> What is near what.
    type :: neighbours_t
@@ -21,18 +35,17 @@ module neighbours
       real(dp) :: tau = 0       !! time that sorting looks ahead
       real(dp) :: travel = 0    !! time before and after tau that the lists allow for
       real(dp) :: image_travel = 0   !! time before and after tau that images were made for
-      real(dp) :: slack = 0     !! length that the lists allow accelerations to lead a particle
-      real(dp) :: stray = 0     !! length that they have until the base state, at most
-      real(dp) :: next_stray = 0     !! and until the next one
-      real(dp) :: drift = 0          !! max |u - u when sorted|, mean of the last step
-      real(dp) :: acceleration = -1  !! largest since the particles were sorted; before the first step not known
+      real(dp) :: slack = 0     !! that every block has at least
+      real(dp) :: slack_time_2 = 0   !! slack of a block for its acceleration
+      real(dp) :: image_slack = 0    !! that images were made for: no block may have more
+      real(dp) :: stray = 0     !! largest of all blocks
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
       integer :: n_groups = 0
       integer :: n_blocks = 0
       type(strips_t) :: strips               !! of the own slots
       type(images_t) :: images               !! behind the own slots
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
-      type(extent_t), allocatable, private :: groups(:)   !! (n_groups) predicted positions, velocities
+      type(margin_t), allocatable :: margins(:)      !! (n_blocks)
    contains
       procedure :: bytes => neighbours_bytes
    end type neighbours_t
@@ -45,7 +58,7 @@ contains
 
       bytes = self%strips%bytes() + self%images%bytes()
       if (allocated(self%blocks)) bytes = bytes + sum(self%blocks%bytes()) &
-         + size(self%groups, kind=i8)*storage_size(self%groups)/8
+         + size(self%margins, kind=i8)*storage_size(self%margins)/8
    end function neighbours_bytes
 
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
@@ -63,8 +76,6 @@ contains
       real(dp) :: outwards(4), reach(4)
 
       self%tau = span/2
-      self%age = 0
-      self%stray = 0
       self%jumped = .false.
       n_old = p%n_own
       !$omp parallel do default(none) shared(self, p, n_old)
@@ -80,7 +91,12 @@ contains
       scattered = self%strips%n < 0
       if (scattered) return
       call permute(self, p)
-      call measure_groups(self, p)
+      self%image_slack = max(self%slack, image_slack*kernel%support)
+      call set_margins(self, p)
+      self%age = 0
+      self%stray = 0
+      self%n_groups = p%n_own/group_slots
+      call measure_strips(self%strips, p%base)
       self%images%strips%height = self%strips%height
       self%images%strips%bin_width = dx   ! images stand in narrow stripes far apart, and many bins are empty
       self%images%strips%origin = self%strips%origin
@@ -91,11 +107,11 @@ contains
          outwards = max(0.0_dp, [-overall%slowest(1), overall%fastest(1), -overall%slowest(2), overall%fastest(2)])
          if (walls%periodic(1)) outwards(1:2) = maxval(outwards(1:2))
          if (walls%periodic(2)) outwards(3:4) = maxval(outwards(3:4))
-         reach = kernel%support + 2*self%slack + (self%tau + self%image_travel)*outwards
+         reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       end associate
       call list_images(self%images, walls, p, self%tau, self%image_travel, reach)
       call fill_images(self%images, walls, p%n_own, p%base)
-      call measure_images(self, p)
+      call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles
 
    !> Takes the state of `next` into `base` as it is, with the order and the lists that there are.
@@ -106,12 +122,14 @@ contains
       real(dp), intent(in) :: step   !! from base to next
 
       self%age = self%age + step
-      self%stray = self%next_stray
+      self%margins%stray = self%margins%next_stray
+      self%stray = maxval(self%margins(:self%n_blocks)%stray)
       call swap_states(p%base, p%next)
       call fill_images(self%images, walls, p%n_own, p%base)
    end subroutine keep_order
 
-   ! Gathers state, mass and number of each slot from where its particle was.
+   ! Gathers state, mass and number of each slot from where its particle was, and how its velocity has changed since it was
+   ! sorted last.
    subroutine permute(self, p)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
@@ -131,8 +149,7 @@ contains
             p%base%y(i) = p%next%y(old)
             p%base%u(i) = p%next%u(old)
             p%base%v(i) = p%next%v(old)
-            p%sorted_u(i) = real(p%next%u(old), sp)
-            p%sorted_v(i) = real(p%next%v(old), sp)
+            p%stage(1)%w(i) = sqrt((p%next%u(old) - p%sorted_u(old))**2 + (p%next%v(old) - p%sorted_v(old))**2)
             p%base%s(i) = p%next%s(old)
             p%base%w(i) = p%next%w(old)
             p%stage(2)%w(i) = p%m(old)
@@ -142,8 +159,7 @@ contains
             p%base%y(i) = far_away
             p%base%u(i) = 0
             p%base%v(i) = 0
-            p%sorted_u(i) = 0
-            p%sorted_v(i) = 0
+            p%stage(1)%w(i) = 0
             p%base%s(i) = 0
             p%base%w(i) = 0
             p%stage(2)%w(i) = 0
@@ -175,133 +191,186 @@ contains
       call move_alloc(spare, p%dissipating)
    end subroutine permute_dissipated
 
-   ! Positions and velocities of each group of slots, velocities of each strip and of all.
-   subroutine measure_groups(self, p)
+   ! The slack of each block, for the accelerations that its particles had.
+   subroutine set_margins(self, p)
       type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(in) :: p
-      integer :: g, k
+      type(particles_t), intent(inout) :: p
+      integer :: b, i1, i2
 
-      self%n_groups = p%n_own/group_slots
       self%n_blocks = (p%n_own + block_slots - 1)/block_slots
-      if (allocated(self%groups)) then
-         if (size(self%groups) < self%n_groups) deallocate (self%blocks, self%groups)
+      if (allocated(self%blocks)) then
+         if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
       end if
-      if (.not. allocated(self%groups)) &
-         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%groups(self%n_groups + self%n_groups/8))
-      !$omp parallel do default(none) shared(self, p) private(g)
-      do k = 1, self%strips%n
-         self%strips%extent(k) = extent_t()
-         do g = (self%strips%slot_start(k) - 1)/group_slots + 1, (self%strips%slot_start(k + 1) - 1)/group_slots
-            self%groups(g) = group_extent(p, g, self%tau)
-            call widen(self%strips%extent(k), self%groups(g)%slowest, self%groups(g)%fastest)
-         end do
+      if (.not. allocated(self%blocks)) &
+         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
+      !$omp parallel do default(none) shared(self, p) private(i1, i2)
+      do b = 1, self%n_blocks
+         i1 = (b - 1)*block_slots + 1
+         i2 = min(b*block_slots, p%n_own)
+         self%margins(b) = margin_t(slack=self%slack)
+         if (self%age > 0) &
+            self%margins(b)%slack = max(self%slack, min(self%image_slack, &
+                                                        self%slack_time_2*maxval(p%stage(1)%w(i1:i2))/self%age))
+         p%sorted_u(i1:i2) = real(p%base%u(i1:i2), sp)
+         p%sorted_v(i1:i2) = real(p%base%v(i1:i2), sp)
       end do
       !$omp end parallel do
-      call measure_all(self%strips)
-   end subroutine measure_groups
+   end subroutine set_margins
 
-   ! Velocities of each strip of images and of all images.
-   subroutine measure_images(self, p)
-      type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(in) :: p
-      integer :: k, j
-
-      associate (strips => self%images%strips)
-         do k = 1, strips%n
-            strips%extent(k) = extent_t()
-            do j = strips%slot_start(k), strips%slot_start(k + 1) - 1
-               call widen(strips%extent(k), [p%base%u(j), p%base%v(j)], [p%base%u(j), p%base%v(j)])
-            end do
-         end do
-      end associate
-      call measure_all(self%images%strips)
-   end subroutine measure_images
-
-   subroutine measure_all(strips)
+   ! Velocities of each strip and of all, without the dummies at a strip's end.
+   subroutine measure_strips(strips, state)
       type(strips_t), intent(inout) :: strips
-      integer :: k
+      type(state_t), intent(in) :: state
+      integer :: k, first, last
 
       strips%overall = extent_t()
+      if (strips%n == 0) return
+      !$omp parallel do default(none) shared(strips, state) private(first, last)
       do k = 1, strips%n
-         call widen(strips%overall, strips%extent(k)%slowest, strips%extent(k)%fastest)
+         strips%extent(k) = extent_t()
+         first = strips%slot_start(k)
+         last = strips%slot_start(k + 1) - 1
+         if (last < first) cycle
+         do while (strips%point_of(last - strips%slot_start(1) + 1) == 0)
+            last = last - 1
+         end do
+         associate (extent => strips%extent(k))
+            call span_of(last - first + 1, state%u(first:last), extent%slowest(1), extent%fastest(1))
+            call span_of(last - first + 1, state%v(first:last), extent%slowest(2), extent%fastest(2))
+         end associate
       end do
-   end subroutine measure_all
+      !$omp end parallel do
+      do k = 1, strips%n
+         strips%overall%slowest = min(strips%overall%slowest, strips%extent(k)%slowest)
+         strips%overall%fastest = max(strips%overall%fastest, strips%extent(k)%fastest)
+      end do
+   end subroutine measure_strips
 
-   pure subroutine widen(extent, slowest, fastest)
-      type(extent_t), intent(inout) :: extent
-      real(dp), intent(in) :: slowest(2), fastest(2)
+   pure subroutine span_of(n, values, least, most)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: values(n)
+      real(dp), intent(out) :: least, most
+      integer :: i
 
-      extent%slowest = min(extent%slowest, slowest)
-      extent%fastest = max(extent%fastest, fastest)
-   end subroutine widen
+      least = values(1)
+      most = values(1)
+      !$omp simd reduction(min:least) reduction(max:most)
+      do i = 2, n
+         least = min(least, values(i))
+         most = max(most, values(i))
+      end do
+   end subroutine span_of
+
+   ! The slack of each slot, into `slack`, of each strip and of all. An image has its source's.
+   subroutine spread_slack(self, n_own, n_slots, slack)
+      type(neighbours_t), intent(inout) :: self
+      integer, intent(in) :: n_own, n_slots
+      real(dp), intent(inout) :: slack(:)   !! (n_slots)
+      integer :: b, i
+
+      !$omp parallel default(none) shared(self, n_own, n_slots, slack)
+      !$omp do
+      do b = 1, self%n_blocks
+         slack((b - 1)*block_slots + 1:min(b*block_slots, n_own)) = self%margins(b)%slack + self%margins(b)%unsure
+      end do
+      !$omp end do
+      !$omp do
+      do i = n_own + 1, n_slots
+         slack(i) = slack(self%images%source(i - n_own))
+      end do
+      !$omp end do
+      !$omp end parallel
+      call take_slack(self%strips, slack)
+      call take_slack(self%images%strips, slack)
+   end subroutine spread_slack
+
+   subroutine take_slack(strips, slack)
+      type(strips_t), intent(inout) :: strips
+      real(dp), intent(in) :: slack(:)
+      integer :: k
+
+      strips%overall%slack = 0
+      if (strips%n == 0) return
+      !$omp parallel do default(none) shared(strips, slack)
+      do k = 1, strips%n
+         strips%extent(k)%slack = maxval([0.0_dp, slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)])
+      end do
+      !$omp end parallel do
+      strips%overall%slack = maxval(strips%extent(:strips%n)%slack)
+   end subroutine take_slack
 
    !> Lists the slots that each cluster can reach until `travel` before or after the time that the
    !! particles were sorted for.
    !!
    !! All particles are displaced by the same time, so two of them come closer by no more than their relative
-   !! velocity times `travel`, and what accelerations add: the slack.
-   subroutine list_neighbours(self, p, kernel, travel)
+   !! velocity times `travel`, and what accelerations add: the slack of both. Where lists are made some time after the particles
+   !! were sorted, the way that they were on then is known to the `unsure` of their block.
+   subroutine list_neighbours(self, p, kernel, travel, scratch)
       type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(inout) :: p   !! base is as sorted; the first stage's positions are scratch
+      type(particles_t), intent(inout) :: p   !! base is filled
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: travel
-      real(dp) :: reach
+      integer, intent(in) :: scratch          !! number of the stage's state that is not needed
       integer :: b, i
 
       self%travel = travel
-      reach = kernel%support + 2*self%slack
-      !$omp parallel default(none) shared(self, p, travel, reach) private(i)
+      call spread_slack(self, p%n_own, p%n_slots, p%stage(scratch)%w)
+      !$omp parallel default(none) shared(self, p, kernel, travel, scratch) private(i)
       !$omp do simd
       do i = 1, p%n_slots
-         p%stage(1)%x(i) = p%base%x(i) + self%tau*p%base%u(i)
-         p%stage(1)%y(i) = p%base%y(i) + self%tau*p%base%v(i)
+         p%stage(scratch)%x(i) = p%base%x(i) + (self%tau - self%age)*p%base%u(i)
+         p%stage(scratch)%y(i) = p%base%y(i) + (self%tau - self%age)*p%base%v(i)
       end do
       !$omp end do simd
       !$omp do schedule(dynamic)
       do b = 1, self%n_blocks
-         call list_block(self, p, b, reach, travel)
+         call list_block(self, p%capacity, p%id, p%stage(scratch), p%base, b, kernel%support, travel)
       end do
       !$omp end do
       !$omp end parallel
    end subroutine list_neighbours
 
    ! The lists of a block's clusters.
-   subroutine list_block(self, p, b, reach, travel)
+   subroutine list_block(self, n, id, predicted, base, b, support, travel)
       type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(in) :: p
+      integer, intent(in) :: n                     !! slots that there are
+      integer, intent(in) :: id(n)
+      type(state_t), intent(in) :: predicted       !! positions, and slack in place of the volume
+      type(state_t), intent(in) :: base
       integer, intent(in) :: b
-      real(dp), intent(in) :: reach, travel
+      real(dp), intent(in) :: support, travel
+      type(extent_t) :: group
       type(ranges_t) :: own, images
-      integer :: g
+      integer :: g, i0
 
-      do g = (b - 1)*block_groups + 1, min(b*block_groups, self%n_groups)
+      do g = 1, min(block_groups, self%n_groups - (b - 1)*block_groups)
+         i0 = (b - 1)*block_slots + (g - 1)*group_slots
+         group = group_extent(id, predicted, base, i0)
          own%n = 0
          images%n = 0
-         call add_ranges(self%strips, self%groups(g), reach, travel, own)
-         call add_ranges(self%images%strips, self%groups(g), reach, travel, images)
-         call list_group(self%blocks(b), g - (b - 1)*block_groups, own, images, p%capacity, p%stage(1)%x, p%stage(1)%y, &
-                         p%base%u, p%base%v, (g - 1)*group_slots, self%groups(g), reach, travel)
+         call add_ranges(self%strips, group, support, travel, own)
+         call add_ranges(self%images%strips, group, support, travel, images)
+         call list_group(self%blocks(b), g, own, images, n, predicted%x, predicted%y, base%u, base%v, predicted%w, i0, group, &
+                         support, travel)
       end do
       call trim_lists(self%blocks(b))
    end subroutine list_block
 
-   ! Where a group's particles are predicted and how fast they are.
-   pure type(extent_t) function group_extent(p, g, tau) result(group)
-      type(particles_t), intent(in) :: p
-      integer, intent(in) :: g
-      real(dp), intent(in) :: tau
-      real(dp) :: x, y
+   ! Where a group's particles are predicted, how fast they are, and their slack.
+   pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)
+      integer, intent(in) :: id(:)
+      type(state_t), intent(in) :: predicted, base
+      integer, intent(in) :: i0
       integer :: i
 
-      do i = (g - 1)*group_slots + 1, g*group_slots
-         if (p%id(i) == 0) cycle
-         x = p%base%x(i) + tau*p%base%u(i)
-         y = p%base%y(i) + tau*p%base%v(i)
-         group%lower = [min(group%lower(1), x), min(group%lower(2), y)]
-         group%upper = [max(group%upper(1), x), max(group%upper(2), y)]
-         group%slowest = [min(group%slowest(1), p%base%u(i)), min(group%slowest(2), p%base%v(i))]
-         group%fastest = [max(group%fastest(1), p%base%u(i)), max(group%fastest(2), p%base%v(i))]
+      do i = i0 + 1, i0 + group_slots
+         if (id(i) == 0) cycle
+         group%lower = min(group%lower, [predicted%x(i), predicted%y(i)])
+         group%upper = max(group%upper, [predicted%x(i), predicted%y(i)])
+         group%slowest = min(group%slowest, [base%u(i), base%v(i)])
+         group%fastest = max(group%fastest, [base%u(i), base%v(i)])
       end do
+      group%slack = predicted%w(i0 + 1)
    end function group_extent
 
    !> Slots, own and images, that may be closer than `reach` to a point in the base state.
@@ -311,12 +380,10 @@ contains
       real(dp), intent(in) :: reach
       type(ranges_t), intent(out) :: ranges
       type(extent_t) :: point
-      real(dp) :: margin
 
       point = extent_t(lower=[x, y], upper=[x, y], slowest=0.0_dp, fastest=0.0_dp)
-      margin = reach + self%stray
-      call add_ranges(self%strips, point, margin, abs(self%tau - self%age), ranges)
-      call add_ranges(self%images%strips, point, margin, abs(self%tau - self%age), ranges)
+      call add_ranges(self%strips, point, reach, abs(self%tau - self%age), ranges)
+      call add_ranges(self%images%strips, point, reach, abs(self%tau - self%age), ranges)
    end subroutine ranges_around
 
 end module neighbours

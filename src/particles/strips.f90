@@ -27,6 +27,7 @@ module strips
    type :: extent_t
       real(dp) :: lower(2) = huge(1.0_dp), upper(2) = -huge(1.0_dp)
       real(dp) :: slowest(2) = huge(1.0_dp), fastest(2) = -huge(1.0_dp)
+      real(dp) :: slack = 0   !! length that accelerations may lead one of them
    end type extent_t
 
    !> The strips of a set of points and where their slots begin.
@@ -42,7 +43,7 @@ module strips
       integer, allocatable :: bins(:)               !! (n) bins of a strip
       integer, allocatable :: bin_offset(:)         !! (n) where a strip's bins are in bin_start
       integer, allocatable :: bin_start(:)          !! first slot of each bin, and one past the strip's last
-      type(extent_t), allocatable :: extent(:)      !! (n) velocities in a strip, set by the caller
+      type(extent_t), allocatable :: extent(:)      !! (n) velocities and slack in a strip, set by the caller
       type(extent_t) :: overall                     !! of all strips
       integer, allocatable, private :: strip_of(:)  !! (points) scratch
       integer, allocatable, private :: by_strip(:)  !! (points) scratch
@@ -256,25 +257,26 @@ contains
       bin = int(max(0.0_dp, min(real(self%bins(k) - 1, dp), (x - self%left(k))/self%bin_width))) + 1
    end function bin
 
-   !> Adds the slot ranges that hold every point that may come closer than `reach` to a box of particles while
-   !! all move on for up to `travel`, forwards or backwards.
-   pure subroutine add_ranges(self, box, reach, travel, ranges)
+   !> Adds the slot ranges that hold every point that may come closer than `support` to a box of particles while
+   !! all move on for up to `travel`, forwards or backwards, and stray from there by their slack.
+   pure subroutine add_ranges(self, box, support, travel, ranges)
       type(strips_t), intent(in) :: self
       type(extent_t), intent(in) :: box
-      real(dp), intent(in) :: reach
+      real(dp), intent(in) :: support
       real(dp), intent(in) :: travel   !! time
       type(ranges_t), intent(inout) :: ranges
-      real(dp) :: gap, half_width, strip_bottom, widest, closing(2)
+      real(dp) :: reach, gap, half_width, strip_bottom, widest, closing(2)
       integer :: k, k1, k2, first, last
 
       if (self%n == 0) return
       closing = travel*relative_speed(box, self%overall)
-      widest = reach + closing(2)
+      widest = support + box%slack + self%overall%slack + closing(2)
       k1 = int(max(0.0_dp, min(real(self%n, dp), (box%lower(2) - widest - self%bottom)/self%height))) + 1
       k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (box%upper(2) + widest - self%bottom)/self%height))) + 1
       do k = k1, k2
          if (self%bins(k) == 0) cycle
          closing = travel*relative_speed(box, self%extent(k))
+         reach = support + box%slack + self%extent(k)%slack
          strip_bottom = self%bottom + (k - 1)*self%height
          gap = max(0.0_dp, strip_bottom - box%upper(2) - closing(2), box%lower(2) - (strip_bottom + self%height) - closing(2))
          if (gap >= reach) cycle

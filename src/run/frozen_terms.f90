@@ -61,19 +61,33 @@ contains
       p%next%u(i0 + 1:i0 + n) = rates%u(:n)
       p%next%v(i0 + 1:i0 + n) = rates%v(:n)
       p%next%s(i0 + 1:i0 + n) = rates%s(:n)
-      block%largest_pi = max(block%largest_pi, maxval(sums%largest_pi(:n)))
+      block%largest_pi = max(block%largest_pi, largest(n, sums%largest_pi))
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
          call freeze_coefficients(model, sums, p, i0, n, block%singular)
-         block%largest_alpha = max(block%largest_alpha, maxval(p%alpha(i0 + 1:i0 + n)))
-         block%largest_delta = max(block%largest_delta, maxval(p%delta(i0 + 1:i0 + n)*crowding(model, sums%crowd(:n))))
+         block%largest_alpha = max(block%largest_alpha, largest(n, p%alpha(i0 + 1:i0 + n)))
+         block%largest_delta = max(block%largest_delta, &
+                                   largest(n, p%delta(i0 + 1:i0 + n)*crowding(model, sums%crowd(:n))))
       else
          if (p%features%viscosity) call freeze_viscosity(model, model%alpha, sums%viscous_x, sums%viscous_y, p, i0, n)
          if (.not. p%features%diffusion) return
          call freeze_gradient(model, sums, p, i0, n, block%singular)
-         block%largest_delta = max(block%largest_delta, model%delta*maxval(crowding(model, sums%crowd(:n))))
+         block%largest_delta = max(block%largest_delta, model%delta*crowding(model, largest(n, sums%crowd)))
       end if
    end subroutine begin_frozen_terms
+
+   ! maxval, as a loop that is vectorised.
+   pure real(dp) function largest(n, values)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: values(n)
+      integer :: k
+
+      largest = 0
+      !$omp simd reduction(max:largest)
+      do k = 1, n
+         largest = max(largest, values(k))
+      end do
+   end function largest
 
    ! The sum of F_ij V_j, to which the rate of density diffusion is proportional, over that of the lattice that its limit is for.
    ! Where it is less, as at a surface, the step is not longer for it.

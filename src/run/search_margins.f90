@@ -1,63 +1,105 @@
 !> For how many steps the order of the particles and the lists of their neighbours are kept, and with which margins.
 !!
 !! Source: ours (docs/architecture.md). While lists are kept, a particle may go straight on with the velocity that it had when it
-!! was sorted, and accelerations may lead it `slack` away from there. Both are looked at in every stage; nothing that a step
-!! computes depends on how long lists are kept but the order in which its sums are taken.
+!! was sorted, and accelerations may lead it away from there by the slack of its block. Both are looked at in every stage; nothing
+!! that a step computes depends on how long lists are kept but the order in which its sums are taken.
 module search_margins
    use integrators, only: integrator_t
    use kinds, only: dp
-   use neighbours, only: neighbours_t
+   use neighbours, only: margin_t, neighbours_t
    implicit none
    private
 
-   public :: plan_margins, watch_margins, lists_hold
+   public :: plan_margins, lists_reach, widen_margins, watch_margins, lists_hold
 
    integer, parameter :: most_steps = 8           !! that lists are kept for
    real(dp), parameter :: least_slack = 0.02_dp   !! in dx
-   real(dp), parameter :: safety = 2.5_dp         !! times the way that the accelerations of the lists before would lead
+   real(dp), parameter :: safety = 1.5_dp         !! times the way that the accelerations of the lists before would lead
+   real(dp), parameter :: spread = 0.1_dp         !! of the largest acceleration, which may come to every block
    ! Sorting and listing take a third of the time of a step's pair loops, and a slack of 0.01 dx makes these 1 % longer (measured).
    ! So n steps from one list cost 1/(3 n) + safety a (n dt)**2/(2 dx) of them each: least for this times (dx/(a dt**2))**(1/3).
-   real(dp), parameter :: cheapest = 0.52_dp
+   real(dp), parameter :: cheapest = 0.6_dp
 
 contains
 
    !> Slack for lists that are made now, and the time that they shall last.
+   !!
+   !! The cost of slack is that of its mean over all blocks, so a few fast ones do not set the time for all.
    subroutine plan_margins(near, dx, dt, span)
       type(neighbours_t), intent(inout) :: near
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: dt           !! expected step
       real(dp), intent(out) :: span
-      real(dp) :: steps
+      real(dp) :: steps, largest, mean
 
+      largest = 0
       steps = 1
-      if (near%acceleration > 0) &
-         steps = max(1.0_dp, anint(min(cheapest*(dx/(near%acceleration*dt**2))**(1/3.0_dp), real(most_steps, dp))))
+      if (near%n_blocks > 0) then
+         associate (accelerations => near%margins(:near%n_blocks)%acceleration)
+            largest = maxval(accelerations)
+            mean = sum(max(accelerations, spread*largest))/near%n_blocks
+         end associate
+      end if
+      if (largest > 0) then
+         steps = max(1.0_dp, anint(min(cheapest*(dx/(mean*dt**2))**(1/3.0_dp), real(most_steps, dp))))
+      end if
       span = steps*dt
-      near%slack = max(least_slack*dx, safety*near%acceleration*span**2/2)
-      near%acceleration = 0
+      near%slack_time_2 = safety*span**2/2
+      near%slack = max(least_slack*dx, near%slack_time_2*spread*largest)
    end subroutine plan_margins
 
-   !> Whether the lists still held in a step from the base state; if so, `near` knows where that has led the particles.
-   logical function watch_margins(near, integrator, dt, changes, jump) result(held)
+   !> Whether the lists hold for the state that a stage leads to.
+   pure logical function lists_reach(near, time, changes)
+      type(neighbours_t), intent(in) :: near
+      real(dp), intent(in) :: time         !! from the base state
+      real(dp), intent(in) :: changes(:)   !! (blocks) max |u - u when sorted| that leads there
+
+      lists_reach = .not. any(near%margins(:near%n_blocks)%stray + time*changes > near%margins(:near%n_blocks)%slack)
+   end function lists_reach
+
+   !> More slack for blocks that go farther in a stage than the lists allow; `enough` unless there are no images for as much.
+   pure subroutine widen_margins(near, time, changes, base_changes, enough)
+      type(neighbours_t), intent(inout) :: near
+      real(dp), intent(in) :: time              !! as above
+      real(dp), intent(in) :: changes(:)
+      real(dp), intent(in) :: base_changes(:)   !! (blocks) max |u - u when sorted| of the base state
+      logical, intent(out) :: enough
+      real(dp), parameter :: more = 3           ! the last stage may go twice as far, and the step after this one farther
+      real(dp) :: farthest
+      integer :: b
+
+      farthest = 0
+      do b = 1, near%n_blocks
+         associate (margin => near%margins(b))
+            margin%unsure = margin%stray + (abs(near%tau - near%age) + near%travel)*base_changes(b)
+            if (margin%stray + time*changes(b) > margin%slack) then
+               farthest = max(farthest, margin%stray + time*changes(b))
+               margin%slack = max(margin%slack, min(more*(margin%stray + time*changes(b)), near%image_slack))
+            end if
+         end associate
+      end do
+      enough = farthest <= near%image_slack
+      near%stray = max(near%stray, farthest)
+   end subroutine widen_margins
+
+   !> Where a step leads the particles.
+   pure subroutine watch_margins(near, integrator, dt, changes, jumps)
       type(neighbours_t), intent(inout) :: near
       type(integrator_t), intent(in) :: integrator
       real(dp), intent(in) :: dt
-      real(dp), intent(in) :: changes(:)   !! (stages) max |u - u when sorted|
-      real(dp), intent(in) :: jump         !! largest way that a wall has put a particle back
-      real(dp) :: farthest
-      integer :: n
+      real(dp), intent(in) :: changes(:, :)   !! (blocks, stages) max |u - u when sorted|
+      real(dp), intent(in) :: jumps(:)        !! (blocks) largest way that a wall has put a particle back
+      integer :: b, n
 
-      n = size(changes)
-      farthest = near%stray + dt*maxval(integrator%ahead(:n - 1)*changes(:n - 1))
-      held = farthest <= near%slack
-      near%acceleration = max(near%acceleration, maxval(changes)/(near%age + dt))
-      if (.not. held) then
-         near%stray = farthest
-         return
-      end if
-      near%drift = sum(integrator%weight(:n)*changes)
-      near%next_stray = near%stray + dt*near%drift + jump
-   end function watch_margins
+      n = integrator%stages
+      do b = 1, near%n_blocks
+         associate (margin => near%margins(b), change => changes(b, :n))
+            margin%acceleration = max(margin%acceleration, maxval(change)/(near%age + dt))
+            margin%drift = sum(integrator%weight(:n)*change)
+            margin%next_stray = margin%stray + dt*margin%drift + jumps(b)
+         end associate
+      end do
+   end subroutine watch_margins
 
    !> Whether lists can serve for one more step of about the last one's length.
    pure logical function lists_hold(near, dt)
@@ -65,8 +107,11 @@ contains
       real(dp), intent(in) :: dt   !! last step, which led from base to next
       real(dp), parameter :: longer = 1.02_dp
 
-      lists_hold = near%age + (1 + longer)*dt <= near%tau + near%travel .and. .not. near%jumped &
-                   .and. near%next_stray + dt*(near%drift + near%acceleration*dt) <= near%slack
+      lists_hold = near%n_blocks > 0 .and. .not. near%jumped .and. near%age + (1 + longer)*dt <= near%tau + near%travel
+      if (.not. lists_hold) return
+      associate (margins => near%margins(:near%n_blocks))
+         lists_hold = all(margins%next_stray + dt*(margins%drift + margins%acceleration*dt) <= margins%slack)
+      end associate
    end function lists_hold
 
 end module search_margins

@@ -9,6 +9,7 @@ module time_step
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
+   use integrators, only: most_stages
    use images, only: fill_image_copies, fill_image_gradients, fill_images, fill_no_slip
    use kinds, only: dp, i8
    use lanes, only: nl
@@ -16,7 +17,7 @@ module time_step
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
    use runge_kutta, only: block_t, stage_state, update_block
-   use search_margins, only: lists_hold, plan_margins, watch_margins
+   use search_margins, only: lists_hold, lists_reach, plan_margins, watch_margins, widen_margins
    use timers, only: timers_t
    implicit none
    private
@@ -35,6 +36,7 @@ module time_step
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
       integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
       integer(i8) :: sorted = 0             !! times that particles were sorted and neighbours listed
+      integer(i8) :: relisted = 0           !! times that neighbours were listed anew within a step
       integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
@@ -113,7 +115,7 @@ contains
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
-      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
+      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau, scratch=1)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`.
@@ -136,7 +138,7 @@ contains
          call timers%stop(phase_gradients)
          run%dt = min(stable_step(model, blocks), at_most)
          if (in_reach(near, run%dt)) then
-            call stages(model, p, near, run%dt, blocks, timers, strayed)
+            call stages(model, p, near, run, blocks, timers, strayed)
             if (strayed) then
                near%slack = 2*near%stray
             else
@@ -209,41 +211,73 @@ contains
       if (model%dynamic) call fill_image_copies(near%images, p%n_own, p%alpha, p%delta)
    end subroutine first_sums
 
-   ! The stages; `strayed` if the neighbour ranges turned out too small and the result is void.
-   subroutine stages(model, p, near, dt, blocks, timers, strayed)
+   ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
+   subroutine stages(model, p, near, run, blocks, timers, strayed)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
-      real(dp), intent(in) :: dt
+      type(step_t), intent(inout) :: run
       type(block_t), intent(inout) :: blocks(:)
       type(timers_t), intent(inout) :: timers
       logical, intent(out) :: strayed
-      integer :: stage, k
+      real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
+      integer :: stage
 
-      if (near%age + dt - near%tau > near%travel) then
+      if (near%age + run%dt - near%tau > near%travel) then
          call timers%start(phase_sort)
-         call list_neighbours(near, p, model%kernel, 1.1_dp*(dt - near%tau))
+         call list_neighbours(near, p, model%kernel, 1.1_dp*(run%dt - near%tau), scratch=1)
          call timers%stop(phase_sort)
       end if
-      call timers%start(phase_diffusion)
-      call first_stage(model, p, near, dt, blocks)
-      if (.not. model%frozen) blocks%wall_power = model%integrator%weight(1)*blocks%wall_power
-      call timers%stop(phase_diffusion)
-      call timers%start(phase_stages)
-      do stage = 2, model%integrator%stages
-         if (model%frozen) then
-            call later_stage(model, p, near, stage, dt, blocks)
+      strayed = .false.
+      do stage = 1, model%integrator%stages
+         if (stage == 1) then
+            call timers%start(phase_diffusion)
+            call first_stage(model, p, near, run%dt, blocks)
+            if (.not. model%frozen) blocks%wall_power = model%integrator%weight(1)*blocks%wall_power
+            call timers%stop(phase_diffusion)
          else
-            call whole_stage(model, p, near, stage, dt, blocks)
+            call timers%start(phase_stages)
+            if (model%frozen) then
+               call later_stage(model, p, near, stage, run%dt, blocks)
+            else
+               call whole_stage(model, p, near, stage, run%dt, blocks)
+            end if
+            call timers%stop(phase_stages)
          end if
+         changes(:, stage) = blocks%change(stage)
+         if (stage < model%integrator%stages) call follow(model, p, near, run, stage, changes, timers, strayed)
       end do
-      call timers%stop(phase_stages)
       near%jumped = any(blocks%wrapped)
-      strayed = .not. watch_margins(near, model%integrator, dt, [(maxval(blocks%change(k)), k=1, model%integrator%stages)], &
-                                    maxval(blocks%jump))
+      jumps = blocks%jump
+      call watch_margins(near, model%integrator, run%dt, changes, jumps)
       ! A solution that has left its range by so much is no better the second time.
       if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
    end subroutine stages
+
+   ! Makes the lists anew if they do not reach as far as the state that a stage leads to.
+   subroutine follow(model, p, near, run, stage, changes, timers, strayed)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      integer, intent(in) :: stage
+      real(dp), intent(in) :: changes(:, :)   !! (blocks, stages) until this one
+      type(timers_t), intent(inout) :: timers
+      logical, intent(inout) :: strayed
+      real(dp) :: time
+      logical :: enough
+
+      time = model%integrator%ahead(stage)*run%dt
+      if (lists_reach(near, time, changes(:, stage))) return
+      call timers%start(phase_sort)
+      call widen_margins(near, time, changes(:, stage), changes(:, 1), enough)
+      strayed = strayed .or. .not. enough
+      if (enough) then
+         call list_neighbours(near, p, model%kernel, near%travel, scratch=3 - stage_state(stage + 1))
+         run%relisted = run%relisted + 1
+      end if
+      call timers%stop(phase_sort)
+   end subroutine follow
 
    ! Completes the frozen terms and goes from `base` to the second stage's state.
    subroutine first_stage(model, p, near, dt, blocks)
