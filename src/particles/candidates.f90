@@ -42,7 +42,7 @@ contains
    !!
    !! Two particles come closer by no more than their relative velocity times `travel`, and by their slack; that velocity is
    !! taken from the box of the group's velocities.
-   pure subroutine list_group(self, group, own, images, n, x, y, u, v, slack, i0, extent, support, travel)
+   pure subroutine list_group(self, group, own, images, n, x, y, u, v, slack, i0, extent, support, travel, found)
       type(candidates_t), intent(inout) :: self
       integer, intent(in) :: group                 !! 1 for the block's first
       type(ranges_t), intent(in) :: own, images
@@ -53,29 +53,28 @@ contains
       integer, intent(in) :: i0                    !! slot before the group's first
       type(extent_t), intent(in) :: extent         !! the group's velocities and slack
       real(dp), intent(in) :: support, travel
-      integer :: begin(group_clusters), listed(group_clusters)   ! places before a list's first, of its last
-      integer :: c0, m, room, n_here
+      integer, allocatable, intent(inout) :: found(:)   !! scratch; grows with what ranges hold
+      integer :: begin(group_clusters), own_end(group_clusters), listed(group_clusters)   ! places before a list's first, of its last
+      integer :: c, m, room, n_here
 
-      c0 = (group - 1)*group_clusters
-      self%n_clusters = c0 + group_clusters
       room = sum(own%last(:own%n) - own%first(:own%n) + 1) + sum(images%last(:images%n) - images%first(:images%n) + 1) &
              + group_slots
-      begin = self%first(c0 + 1) - 1 + [((m - 1)*room, m=1, group_clusters)]
-      call make_room(self%slot, begin(1), group_clusters*room)
+      call make_room(found, 0, group_clusters*room)
+      begin = [((m - 1)*room, m=1, group_clusters)]
       listed = begin
       call pick(own, n, x, y, u, v, slack, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, support + extent%slack, &
-                travel, size(self%slot), self%slot, listed)
-      self%first_image(c0 + 1:c0 + group_clusters) = listed - begin
+                travel, size(found), found, listed)
+      own_end = listed
       call pick(images, n, x, y, u, v, slack, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, support + extent%slack, &
-                travel, size(self%slot), self%slot, listed)
-      ! The lists were written with room between them.
+                travel, size(found), found, listed)
+      self%n_clusters = group*group_clusters
       do m = 1, group_clusters
-         associate (first => self%first(c0 + m))
-            n_here = listed(m) - begin(m)
-            if (m > 1) self%slot(first:first + n_here - 1) = self%slot(begin(m) + 1:listed(m))
-            self%first_image(c0 + m) = first + self%first_image(c0 + m)
-            self%first(c0 + m + 1) = first + n_here
-         end associate
+         c = (group - 1)*group_clusters + m
+         n_here = listed(m) - begin(m)
+         call make_room(self%slot, self%first(c) - 1, n_here)
+         self%slot(self%first(c):self%first(c) + n_here - 1) = found(begin(m) + 1:listed(m))
+         self%first_image(c) = self%first(c) + own_end(m) - begin(m)
+         self%first(c + 1) = self%first(c) + n_here
       end do
    end subroutine list_group
 
@@ -130,8 +129,8 @@ contains
       integer, allocatable :: fitting(:)
 
       associate (listed => self%first(self%n_clusters + 1) - 1)
-         if (size(self%slot) <= listed + listed/3) return
-         allocate (fitting(listed + listed/5))
+         if (size(self%slot) <= listed + listed/4) return
+         allocate (fitting(listed + listed/16))
          fitting(:listed) = self%slot(:listed)
          call move_alloc(fitting, self%slot)
       end associate
@@ -146,7 +145,7 @@ contains
       if (allocated(slot)) then
          if (used + more <= size(slot)) return
       end if
-      allocate (larger(used + more + (used + more)/16))
+      allocate (larger(used + more + (used + more)/8))
       if (used > 0) larger(:used) = slot(:used)
       call move_alloc(larger, slot)
    end subroutine make_room

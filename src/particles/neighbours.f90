@@ -341,6 +341,7 @@ contains
       real(dp), intent(in) :: support, travel
       type(extent_t) :: group
       type(ranges_t) :: own, images
+      integer, allocatable :: found(:)
       integer :: g, i0
 
       do g = 1, min(block_groups, self%n_groups - (b - 1)*block_groups)
@@ -351,7 +352,7 @@ contains
          call add_ranges(self%strips, group, support, travel, own)
          call add_ranges(self%images%strips, group, support, travel, images)
          call list_group(self%blocks(b), g, own, images, n, predicted%x, predicted%y, base%u, base%v, predicted%w, i0, group, &
-                         support, travel)
+                         support, travel, found)
       end do
       call trim_lists(self%blocks(b))
    end subroutine list_block
