@@ -1,6 +1,7 @@
 !> Explicit Runge-Kutta schemes whose stages each build on the rates of the stage before alone.
 !!
-!! Stage k+1 is at y + a_k dt f_k, the step ends at y + dt sum_k b_k f_k.
+!! Stage k+1 is at y_k+1 = y + a_k dt f_k, the step ends at y + dt sum_k b_k f_k. With a_k dt f_k = y_k+1 - y this is
+!! y + sum_k<n (b_k/a_k) (y_k+1 - y) + dt b_n f_n: no rate has to be kept but those of the last stage n.
 module integrators
    use kinds, only: dp
    implicit none
@@ -17,6 +18,7 @@ module integrators
       integer :: stages = 4
       real(dp) :: ahead(most_stages) = 0    !! a_k
       real(dp) :: weight(most_stages) = 0   !! b_k
+      real(dp) :: share(most_stages) = 0    !! b_k/a_k of all stages but the last
       real(dp) :: imaginary = 0             !! sound of rate w: w dt at most
       real(dp) :: negative = 0              !! diffusion of rate w: w dt at most
    end type integrator_t
@@ -49,6 +51,7 @@ contains
          self%imaginary = sqrt(8.0_dp)
          self%negative = 2.7852935634_dp
       end select
+      self%share(:self%stages - 1) = self%weight(:self%stages - 1)/self%ahead(:self%stages - 1)
    end function new_integrator
 
 end module integrators

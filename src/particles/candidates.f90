@@ -54,7 +54,8 @@ contains
       type(extent_t), intent(in) :: extent         !! the group's velocities and slack
       real(dp), intent(in) :: support, travel
       integer, allocatable, intent(inout) :: found(:)   !! scratch; grows with what ranges hold
-      integer :: begin(group_clusters), own_end(group_clusters), listed(group_clusters)   ! places before a list's first, of its last
+      ! Places before a list's first, of its last particle, of its last.
+      integer :: begin(group_clusters), own_end(group_clusters), listed(group_clusters)
       integer :: c, m, room, n_here
 
       room = sum(own%last(:own%n) - own%first(:own%n) + 1) + sum(images%last(:images%n) - images%first(:images%n) + 1) &

@@ -305,29 +305,36 @@ contains
    !! All particles are displaced by the same time, so two of them come closer by no more than their relative
    !! velocity times `travel`, and what accelerations add: the slack of both. Where lists are made some time after the particles
    !! were sorted, the way that they were on then is known to the `unsure` of their block.
-   subroutine list_neighbours(self, p, kernel, travel, scratch)
+   subroutine list_neighbours(self, p, kernel, travel, within_step)
       type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(inout) :: p   !! base is filled
+      type(particles_t), intent(inout) :: p   !! base is filled; not changed, but for the first stage's state if that is not needed
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: travel
-      integer, intent(in) :: scratch          !! number of the stage's state that is not needed
+      logical, intent(in) :: within_step      !! the states of all stages are needed
+      type(state_t) :: predicted              ! and slack in place of the volume
       integer :: b, i
 
+      if (within_step) then
+         allocate (predicted%x(p%capacity), predicted%y(p%capacity), predicted%w(p%capacity), source=0.0_dp)
+      else
+         call swap_states(predicted, p%stage(1))
+      end if
       self%travel = travel
-      call spread_slack(self, p%n_own, p%n_slots, p%stage(scratch)%w)
-      !$omp parallel default(none) shared(self, p, kernel, travel, scratch) private(i)
+      call spread_slack(self, p%n_own, p%n_slots, predicted%w)
+      !$omp parallel default(none) shared(self, p, predicted, kernel, travel) private(i)
       !$omp do simd
       do i = 1, p%n_slots
-         p%stage(scratch)%x(i) = p%base%x(i) + (self%tau - self%age)*p%base%u(i)
-         p%stage(scratch)%y(i) = p%base%y(i) + (self%tau - self%age)*p%base%v(i)
+         predicted%x(i) = p%base%x(i) + (self%tau - self%age)*p%base%u(i)
+         predicted%y(i) = p%base%y(i) + (self%tau - self%age)*p%base%v(i)
       end do
       !$omp end do simd
       !$omp do schedule(dynamic)
       do b = 1, self%n_blocks
-         call list_block(self, p%capacity, p%id, p%stage(scratch), p%base, b, kernel%support, travel)
+         call list_block(self, p%capacity, p%id, predicted, p%base, b, kernel%support, travel)
       end do
       !$omp end do
       !$omp end parallel
+      if (.not. within_step) call swap_states(predicted, p%stage(1))
    end subroutine list_neighbours
 
    ! The lists of a block's clusters.
@@ -335,8 +342,7 @@ contains
       type(neighbours_t), intent(inout) :: self
       integer, intent(in) :: n                     !! slots that there are
       integer, intent(in) :: id(n)
-      type(state_t), intent(in) :: predicted       !! positions, and slack in place of the volume
-      type(state_t), intent(in) :: base
+      type(state_t), intent(in) :: predicted, base
       integer, intent(in) :: b
       real(dp), intent(in) :: support, travel
       type(extent_t) :: group

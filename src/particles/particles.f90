@@ -38,8 +38,8 @@ module particles
       integer :: capacity = 0   !! slots allocated
       integer :: bytes_per_slot = 0   !! in all arrays below
       type(state_t) :: base        !! state at the start of the step
-      type(state_t) :: stage(2)    !! stage states, in turn read and written
-      type(state_t) :: next        !! state at the end of the step, summed up over the stages
+      type(state_t) :: stage(2)    !! states of stages
+      type(state_t) :: next        !! state at the end of the step; until then a stage's, or rates
       real(dp), allocatable :: m(:)               !! (n_slots) mass, own slots only
       integer, allocatable :: id(:)               !! (n_slots) 1..n for real particles, 0 for dummies
       integer, allocatable :: sorted_id(:)        !! (n_slots) scratch of the sort

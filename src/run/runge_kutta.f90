@@ -14,7 +14,9 @@ module runge_kutta
 
    public :: block_t, update_block
 
-   integer, parameter, public :: stage_state(most_stages) = [0, 1, 2, 1]   !! which of p%stage holds a stage's state; 0: base
+   ! The state of stage 1 is `base`; those of stages 2 and 3 are in p%stage(1) and (2). That of stage 4 is formed in `next` and
+   ! changes places with stage 3's before it is used, so that the end of the step can always be written to `next`, block by block.
+   integer, parameter, public :: stage_state(2:most_stages) = [1, 2, 2]   !! which of p%stage holds a stage's state
 
    real(dp), parameter, public :: fastest = 10   !! in c0; a particle that is faster has left the range
 
@@ -53,7 +55,7 @@ contains
       type(rates_t), intent(inout) :: rates !! inviscid, at the stage's state; on return with all terms
       type(block_t), intent(inout) :: sums
       type(stage_t) :: now
-      real(dp) :: weight, ahead
+      real(dp) :: weight
 
       if (stage == 1) then
          call take_stage(p%base, p%m, i0, n, now)
@@ -63,15 +65,13 @@ contains
       weight = model%integrator%weight(stage)*dt
       sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
       call add_terms(model, p, i0, n, weight, now, rates, sums%work)
-      call add_to_next(p, i0, n, stage, weight, now, rates)
       if (stage == model%integrator%stages) then
+         call end_step(model%integrator%share, weight, p, i0, n, now, rates)
          call finish_block(model, p, i0, n, sums)
+      else if (stage < 3) then
+         call go_on(p%base, i0, n, model%integrator%ahead(stage)*dt, model%rho0, now, rates, p%stage(stage))
       else
-         ahead = model%integrator%ahead(stage)*dt
-         associate (then => p%stage(stage_state(stage + 1)), base => p%base, i1 => i0 + 1, i2 => i0 + n)
-            call go_on(base, i0, n, ahead, now, rates, then)
-            call set_volumes(n, model%rho0, now%m, then%s(i1:i2), then%w(i1:i2))
-         end associate
+         call go_on(p%base, i0, n, model%integrator%ahead(stage)*dt, model%rho0, now, rates, p%next)
       end if
    end subroutine update_block
 
@@ -105,84 +105,77 @@ contains
       type(rates_t), intent(inout) :: rates
       real(dp), intent(inout) :: work(4)
       real(dp) :: pressure(block_slots)     ! p V/rho = m p/rho**2: the derivative of the elastic energy by rho, eq. 11
+      real(dp) :: power
 
-      call take_pressure(n, model%c0, model%rho0, now, pressure)
-      work(3) = work(3) + weight*(force_power(n, now, rates%u, rates%v) + density_power(n, pressure, rates%s))
+      call take_power(n, model%c0, model%rho0, now, rates, pressure, power)
+      work(3) = work(3) + weight*power
       if (p%features%viscosity) then
-         associate (x => p%visc_x(i0 + 1:i0 + n), y => p%visc_y(i0 + 1:i0 + n))
-            work(1) = work(1) + weight*force_power(n, now, x, y)
-            call add(n, 1.0_dp, x, rates%u)
-            call add(n, 1.0_dp, y, rates%v)
-         end associate
+         call add_force(n, now, p%visc_x(i0 + 1:i0 + n), p%visc_y(i0 + 1:i0 + n), rates, power)
+         work(1) = work(1) + weight*power
       end if
       if (p%features%diffusion) then
-         associate (s => p%diff_s(i0 + 1:i0 + n))
-            work(2) = work(2) + weight*density_power(n, pressure, s)
-            call add(n, 1.0_dp, s, rates%s)
-         end associate
+         call add_density_rate(n, pressure, p%diff_s(i0 + 1:i0 + n), rates, power)
+         work(2) = work(2) + weight*power
       end if
       rates%v(:n) = rates%v(:n) - model%gravity
       if (model%has_force()) then
          associate (a => spread(model%acceleration, 2, n))
-            work(4) = work(4) + weight*force_power(n, now, a(1, :), a(2, :))
-            call add(n, 1.0_dp, a(1, :), rates%u)
-            call add(n, 1.0_dp, a(2, :), rates%v)
+            call add_force(n, now, a(1, :), a(2, :), rates, power)
          end associate
+         work(4) = work(4) + weight*power
       end if
       if (model%central_rate > 0) call add_central_force(model, now, n, rates)
    end subroutine add_terms
 
-   pure subroutine take_pressure(n, c0, rho0, now, pressure)
+   ! The power of the rates that there are, sum m u.a + (m p/rho**2) drho/dt: without diffusion and forces it is the walls'.
+   pure subroutine take_power(n, c0, rho0, now, rates, pressure, power)
       integer, intent(in) :: n
       real(dp), intent(in) :: c0, rho0
       type(stage_t), intent(in) :: now
-      real(dp), intent(out) :: pressure(n)
+      type(rates_t), intent(in) :: rates
+      real(dp), intent(out) :: pressure(n)   !! m p/rho**2
+      real(dp), intent(out) :: power
       integer :: k
 
-      !$omp simd
+      power = 0
+      !$omp simd reduction(+:power)
       do k = 1, n
          pressure(k) = c0**2*now%s(k)/(rho0 + now%s(k))*now%w(k)
+         power = power + now%m(k)*(now%u(k)*rates%u(k) + now%v(k)*rates%v(k)) + pressure(k)*rates%s(k)
       end do
-   end subroutine take_pressure
+   end subroutine take_power
 
-   ! sum m u.a
-   pure real(dp) function force_power(n, now, x, y) result(power)
+   pure subroutine add_force(n, now, x, y, rates, power)
       integer, intent(in) :: n
       type(stage_t), intent(in) :: now
-      real(dp), intent(in) :: x(n), y(n)   !! acceleration
+      real(dp), intent(in) :: x(n), y(n)     !! acceleration
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(out) :: power         !! sum m u.a
       integer :: k
 
       power = 0
       !$omp simd reduction(+:power)
       do k = 1, n
          power = power + now%m(k)*(now%u(k)*x(k) + now%v(k)*y(k))
+         rates%u(k) = rates%u(k) + x(k)
+         rates%v(k) = rates%v(k) + y(k)
       end do
-   end function force_power
+   end subroutine add_force
 
-   ! sum (m p/rho**2) drho/dt
-   pure real(dp) function density_power(n, pressure, s) result(power)
+   pure subroutine add_density_rate(n, pressure, s, rates, power)
       integer, intent(in) :: n
       real(dp), intent(in) :: pressure(n), s(n)   !! m p/rho**2; rate of rho
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(out) :: power              !! sum (m p/rho**2) drho/dt
       integer :: k
 
       power = 0
       !$omp simd reduction(+:power)
       do k = 1, n
          power = power + pressure(k)*s(k)
+         rates%s(k) = rates%s(k) + s(k)
       end do
-   end function density_power
-
-   pure subroutine add(n, factor, term, total)
-      integer, intent(in) :: n
-      real(dp), intent(in) :: factor, term(n)
-      real(dp), intent(inout) :: total(n)
-      integer :: k
-
-      !$omp simd
-      do k = 1, n
-         total(k) = total(k) + factor*term(k)
-      end do
-   end subroutine add
+   end subroutine add_density_rate
 
    ! -w**2 (r - centre); nothing for dummies, which are far away.
    pure subroutine add_central_force(model, now, n, rates)
@@ -199,55 +192,68 @@ contains
       end do
    end subroutine add_central_force
 
-   ! Sums up the end of the step: base + dt sum_k b_k rates_k.
-   pure subroutine add_to_next(p, i0, n, stage, weight, now, rates)
-      type(particles_t), intent(inout) :: p
-      integer, intent(in) :: i0, n, stage
-      real(dp), intent(in) :: weight   !! dt b_k
-      type(stage_t), intent(in) :: now
-      type(rates_t), intent(in) :: rates
-
-      if (stage == 1) then
-         call go_on(p%base, i0, n, weight, now, rates, p%next)
-      else
-         associate (next => p%next, i1 => i0 + 1, i2 => i0 + n)
-            call add(n, weight, now%u, next%x(i1:i2))
-            call add(n, weight, now%v, next%y(i1:i2))
-            call add(n, weight, rates%u, next%u(i1:i2))
-            call add(n, weight, rates%v, next%v(i1:i2))
-            call add(n, weight, rates%s, next%s(i1:i2))
-         end associate
-      end if
-   end subroutine add_to_next
-
-   ! `to` = `from` + time*rates; not the volumes.
-   pure subroutine go_on(from, i0, n, time, now, rates, to)
-      type(state_t), intent(in) :: from
+   ! The state of the next stage: `base` + time*rates.
+   pure subroutine go_on(base, i0, n, time, rho0, now, rates, then)
+      type(state_t), intent(in) :: base
       integer, intent(in) :: i0, n
-      real(dp), intent(in) :: time
+      real(dp), intent(in) :: time   !! dt a_k
+      real(dp), intent(in) :: rho0
       type(stage_t), intent(in) :: now
       type(rates_t), intent(in) :: rates
-      type(state_t), intent(inout) :: to
+      type(state_t), intent(inout) :: then
 
       associate (i1 => i0 + 1, i2 => i0 + n)
-         call set_sum(n, from%x(i1:i2), time, now%u, to%x(i1:i2))
-         call set_sum(n, from%y(i1:i2), time, now%v, to%y(i1:i2))
-         call set_sum(n, from%u(i1:i2), time, rates%u, to%u(i1:i2))
-         call set_sum(n, from%v(i1:i2), time, rates%v, to%v(i1:i2))
-         call set_sum(n, from%s(i1:i2), time, rates%s, to%s(i1:i2))
+         call set_sum(n, base%x(i1:i2), time, now%u, then%x(i1:i2))
+         call set_sum(n, base%y(i1:i2), time, now%v, then%y(i1:i2))
+         call set_sum(n, base%u(i1:i2), time, rates%u, then%u(i1:i2))
+         call set_sum(n, base%v(i1:i2), time, rates%v, then%v(i1:i2))
+         call set_sum(n, base%s(i1:i2), time, rates%s, then%s(i1:i2))
+         call set_volumes(n, rho0, now%m, then%s(i1:i2), then%w(i1:i2))
       end associate
    end subroutine go_on
 
-   ! to = from + factor*rate
-   pure subroutine set_sum(n, from, factor, rate, to)
+   ! The end of the step: base + dt sum_k b_k rates_k, from the stages' states; not the volumes.
+   pure subroutine end_step(share, weight, p, i0, n, now, rates)
+      real(dp), intent(in) :: share(:)   !! b_k/a_k
+      real(dp), intent(in) :: weight     !! dt b_n
+      type(particles_t), intent(inout) :: p
+      integer, intent(in) :: i0, n
+      type(stage_t), intent(in) :: now
+      type(rates_t), intent(in) :: rates
+
+      associate (base => p%base, second => p%stage(1), next => p%next, i1 => i0 + 1, i2 => i0 + n)
+         call sum_stages(n, share, base%x(i1:i2), second%x(i1:i2), now%x, weight, now%u, next%x(i1:i2))
+         call sum_stages(n, share, base%y(i1:i2), second%y(i1:i2), now%y, weight, now%v, next%y(i1:i2))
+         call sum_stages(n, share, base%u(i1:i2), second%u(i1:i2), now%u, weight, rates%u, next%u(i1:i2))
+         call sum_stages(n, share, base%v(i1:i2), second%v(i1:i2), now%v, weight, rates%v, next%v(i1:i2))
+         call sum_stages(n, share, base%s(i1:i2), second%s(i1:i2), now%s, weight, rates%s, next%s(i1:i2))
+      end associate
+   end subroutine end_step
+
+   ! Of schemes with fewer than four stages, share(2) and (3) are 0.
+   pure subroutine sum_stages(n, share, base, second, fourth, weight, rate, next)
       integer, intent(in) :: n
-      real(dp), intent(in) :: from(n), factor, rate(n)
-      real(dp), intent(out) :: to(n)
+      real(dp), intent(in) :: share(3), base(n), second(n), fourth(n), weight, rate(n)
+      real(dp), intent(inout) :: next(n)   !! third stage's; the end of the step
       integer :: k
 
       !$omp simd
       do k = 1, n
-         to(k) = from(k) + factor*rate(k)
+         next(k) = base(k) + share(1)*(second(k) - base(k)) + share(2)*(next(k) - base(k)) + share(3)*(fourth(k) - base(k)) &
+                   + weight*rate(k)
+      end do
+   end subroutine sum_stages
+
+   ! then = base + time*rate
+   pure subroutine set_sum(n, base, time, rate, then)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: base(n), time, rate(n)
+      real(dp), intent(out) :: then(n)
+      integer :: k
+
+      !$omp simd
+      do k = 1, n
+         then(k) = base(k) + time*rate(k)
       end do
    end subroutine set_sum
 

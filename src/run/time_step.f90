@@ -115,7 +115,7 @@ contains
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
-      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau, scratch=1)
+      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau, within_step=.false.)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`.
@@ -225,7 +225,7 @@ contains
 
       if (near%age + run%dt - near%tau > near%travel) then
          call timers%start(phase_sort)
-         call list_neighbours(near, p, model%kernel, 1.1_dp*(run%dt - near%tau), scratch=1)
+         call list_neighbours(near, p, model%kernel, 1.1_dp*(run%dt - near%tau), within_step=.false.)
          call timers%stop(phase_sort)
       end if
       strayed = .false.
@@ -237,6 +237,7 @@ contains
             call timers%stop(phase_diffusion)
          else
             call timers%start(phase_stages)
+            if (stage == 4) call swap_states(p%next, p%stage(2))   ! see module runge_kutta
             if (model%frozen) then
                call later_stage(model, p, near, stage, run%dt, blocks)
             else
@@ -273,7 +274,7 @@ contains
       call widen_margins(near, time, changes(:, stage), changes(:, 1), enough)
       strayed = strayed .or. .not. enough
       if (enough) then
-         call list_neighbours(near, p, model%kernel, near%travel, scratch=3 - stage_state(stage + 1))
+         call list_neighbours(near, p, model%kernel, near%travel, within_step=.true.)
          run%relisted = run%relisted + 1
       end if
       call timers%stop(phase_sort)
@@ -338,8 +339,7 @@ contains
       !$omp end parallel do
    end subroutine later_stage
 
-   ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them; the state that is
-   ! formed next has room for the rates until then.
+   ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them.
    subroutine whole_stage(model, p, near, stage, dt, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -349,13 +349,14 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(block_t) :: of_stage(size(blocks))
       type(rates_t) :: rates
-      integer :: b, i0, n, now, spare
+      type(state_t) :: kept                  ! rates of velocity and density: `next` may hold a stage's state
+      integer :: b, i0, n, now
 
       now = stage_state(stage)
-      spare = 3 - now
+      allocate (kept%u(p%capacity), kept%v(p%capacity), kept%s(p%capacity))
       call fill_images(near%images, model%walls, p%n_own, p%stage(now))
       call swap_states(p%base, p%stage(now))
-      call swap_states(p%next, p%stage(spare))
+      call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
       call first_sums(model, p, near, of_stage)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
@@ -364,15 +365,15 @@ contains
       end do
       !$omp end parallel do
       call swap_states(p%base, p%stage(now))
-      call swap_states(p%next, p%stage(spare))
+      call swap_states(p%next, kept)
       blocks%wall_power = blocks%wall_power + model%integrator%weight(stage)*of_stage%wall_power
       blocks%largest_alpha = max(blocks%largest_alpha, of_stage%largest_alpha)
       blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
-      !$omp parallel do default(none) shared(model, p, near, stage, spare, dt, blocks) private(i0, n, rates) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, stage, kept, dt, blocks) private(i0, n, rates) schedule(dynamic)
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters
-         call take_kept(p%stage(spare), i0, n, rates)
+         call take_kept(kept, i0, n, rates)
          call update_block(model, p, i0, n, stage, dt, rates, blocks(b))
       end do
       !$omp end parallel do
