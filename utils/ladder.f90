@@ -21,6 +21,7 @@ program ladder
    use scene_input, only: read_settings
    use scene_setup, only: needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
+   use text, only: behind
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t
    use waiting, only: sleep_while_waiting
@@ -106,11 +107,11 @@ contains
       variant%name = line(:bar - 1)
       rest = trim(line(bar + 1:))//'|'
       path = trim(adjustl(rest(:index(rest, '|') - 1)))
-      rest = rest(index(rest, '|') + 1:)
+      rest = behind(rest, index(rest, '|'))
       do while (rest /= '')
          bar = index(rest, '|')
          overrides = [character(longest_line) :: overrides, adjustl(rest(:bar - 1))]
-         rest = rest(bar + 1:)
+         rest = behind(rest, bar)
       end do
       call read_settings(path, overrides, variant%scene, warnings, problem)
       if (.not. problem%raised()) variant%model = set_up_model(variant%scene)

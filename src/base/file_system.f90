@@ -10,7 +10,7 @@ module file_system
    implicit none
    private
 
-   public :: delete_file, find_files, has_size, is_directory, is_writable, make_directory, partial_path, path_exists, &
+   public :: delete_file, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, path_exists, &
       publish, remove_directory, rename_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
@@ -53,6 +53,13 @@ module file_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: mode
       end function c_access
+
+      integer(c_size_t) function c_readlink(path, target, length) bind(c, name='readlink')
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: target(*)
+         integer(c_size_t), value :: length
+      end function c_readlink
 
       type(c_ptr) function c_opendir(path) bind(c, name='opendir')
          import :: c_char, c_ptr
@@ -100,6 +107,14 @@ contains
 
       path_exists = c_access(c_text(path), mode_exists) == 0
    end function path_exists
+
+   !> True for a symbolic link, wherever it leads.
+   logical function is_link(path)
+      character(*), intent(in) :: path
+      character(kind=c_char) :: target(1)
+
+      is_link = c_readlink(c_text(path), target, 1_c_size_t) >= 0
+   end function is_link
 
    !> True for a directory that may be listed.
    logical function is_directory(path)

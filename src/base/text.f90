@@ -4,7 +4,8 @@ module text
    implicit none
    private
 
-   public :: to_text, short, rounded_down, rounded_up, parse_real, parse_integer, lower_case, quoted, nearest_word
+   public :: to_text, short, rounded_down, rounded_up, parse_real, parse_integer, behind, has_control_characters, lower_case, &
+      quoted, nearest_word
 
    integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
@@ -89,7 +90,7 @@ contains
       digit_string = scientific(:at_e - 1)
       if (digit_string(1:1) == '-') then
          sign_text = '-'
-         digit_string = digit_string(2:)
+         digit_string = behind(digit_string, 1)
       end if
       point = index(digit_string, '.')
       if (exponent_value < least .or. exponent_value > greatest) then
@@ -236,6 +237,25 @@ contains
       end do
       in_quotes = in_quotes//"'"
    end function quoted
+
+   !> What comes behind the first letters of a text. (`words = words(3:)` reads beyond its end with gfortran 12: it is made
+   !! shorter before it is read.)
+   pure function behind(words, letters) result(rest)
+      character(*), intent(in) :: words
+      integer, intent(in) :: letters
+      character(:), allocatable :: rest
+
+      rest = words(letters + 1:)
+   end function behind
+
+   !> Whether a text has a line end or the like in it.
+   pure logical function has_control_characters(words)
+      character(*), intent(in) :: words
+
+      integer :: i
+
+      has_control_characters = any([(iachar(words(i:i)) < 32 .or. iachar(words(i:i)) == 127, i=1, len(words))])
+   end function has_control_characters
 
    !> The word in lower case.
    pure function lower_case(word) result(lower)

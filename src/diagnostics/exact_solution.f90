@@ -20,7 +20,7 @@ module exact_solution
 
    public :: exact_solution_t, new_exact_solution
 
-   real(dp), parameter, public :: continuum_shear = 1.0_dp/8   !! nu/(alpha h c0) by eq. 17
+   real(dp), parameter, public :: continuum_shear = 1.0_dp/8   !! nu/(alpha h c0) by eq. 16
    real(dp), parameter :: pi = acos(-1.0_dp)
 
    !> A solution at a time. Components that are not the named solution's keep their initial values.

@@ -23,6 +23,14 @@ module gauges
       character(:), allocatable :: measure   !! 'end', 'start' or 'wetted'
    end type gauge_t
 
+   ! A way along the line in equal steps, from point 0 to point n. Points are whole numbers of any size: a box may be wide and
+   ! empty, and what a gauge costs must not grow with it.
+   type :: walk_t
+      real(dp) :: n = 1, step = 0          !! [-], [m]; step is below 0 on a way backwards
+      real(dp) :: reach = 0                !! of a particle, in steps
+      real(dp), allocatable :: seen(:)     !! particles and images near the line, in steps
+   end type walk_t
+
 contains
 
    !> From wall to wall; an open side ends a line where the box ends.
@@ -55,13 +63,35 @@ contains
       end select
    end function measure_gauge
 
-   !> Pieces of a line: half a spacing resolves what particles can.
-   pure integer function pieces(model, gauge)
+   ! Divides the way from one end of a gauge's line to the other: half a spacing resolves what particles can.
+   pure type(walk_t) function new_walk(model, p, gauge, from, to) result(walk)
       type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
       type(gauge_t), intent(in) :: gauge
+      real(dp), intent(in) :: from, to
+      real(dp) :: pieces
 
-      pieces = max(1, ceiling((gauge%to - gauge%from)/(0.5_dp*model%dx)))
-   end function pieces
+      pieces = abs(to - from)/(0.5_dp*model%dx)
+      walk%n = max(1.0_dp, aint(pieces))
+      if (walk%n < pieces) walk%n = walk%n + 1
+      walk%step = (to - from)/walk%n
+      walk%reach = model%kernel%support/abs(walk%step)
+      associate (x => p%base%x(:p%n_slots), y => p%base%y(:p%n_slots), support => model%kernel%support)
+         if (gauge%along == 1) walk%seen = (pack(x, abs(y - gauge%at) < support) - from)/walk%step
+         if (gauge%along == 2) walk%seen = (pack(y, abs(x - gauge%at) < support) - from)/walk%step
+      end associate
+   end function new_walk
+
+   ! The next point of a walk: where there is no fluid, the one before the next that some particle reaches.
+   pure real(dp) function next_point(walk, k, volume) result(next)
+      type(walk_t), intent(in) :: walk
+      real(dp), intent(in) :: k        !! where it is
+      real(dp), intent(in) :: volume   !! sum_j W V_j there
+
+      next = k + 1
+      if (volume > 0) return
+      next = max(next, aint(minval(walk%seen, mask=walk%seen > k) - walk%reach))
+   end function next_point
 
    !> Where the fluid begins on the way from one end of the line to the other; `to` on a dry line.
    pure real(dp) function first_wet(model, p, near, gauge, from, to) result(place)
@@ -70,20 +100,22 @@ contains
       type(neighbours_t), intent(in) :: near
       type(gauge_t), intent(in) :: gauge
       real(dp), intent(in) :: from, to
-      real(dp) :: step, previous, here
-      integer :: k, n
+      type(walk_t) :: walk
+      real(dp) :: previous, here, k
 
-      n = pieces(model, gauge)
-      step = (to - from)/n
+      walk = new_walk(model, p, gauge, from, to)
       here = volume_at(model, p, near, gauge, from)
       place = from
       if (here >= at_surface) return
-      do k = 1, n
+      k = next_point(walk, 0.0_dp, here)
+      do while (k <= walk%n)
          previous = here
-         here = volume_at(model, p, near, gauge, from + k*step)
-         if (here < at_surface) cycle
-         place = from + step*(k - (here - at_surface)/(here - previous))
-         return
+         here = volume_at(model, p, near, gauge, from + k*walk%step)
+         if (here >= at_surface) then
+            place = from + walk%step*(k - (here - at_surface)/(here - previous))
+            return
+         end if
+         k = next_point(walk, k, here)
       end do
       place = to
    end function first_wet
@@ -94,21 +126,22 @@ contains
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(gauge_t), intent(in) :: gauge
-      real(dp) :: step, previous, here
-      integer :: k, n
+      type(walk_t) :: walk
+      real(dp) :: previous, here, k
 
-      n = pieces(model, gauge)
-      step = (gauge%to - gauge%from)/n
+      walk = new_walk(model, p, gauge, gauge%from, gauge%to)
       length = 0
       here = volume_at(model, p, near, gauge, gauge%from)
-      do k = 1, n
+      k = next_point(walk, 0.0_dp, here)
+      do while (k <= walk%n)
          previous = here
-         here = volume_at(model, p, near, gauge, gauge%from + k*step)
+         here = volume_at(model, p, near, gauge, gauge%from + k*walk%step)
          if (min(previous, here) >= at_surface) then
-            length = length + step
+            length = length + walk%step
          else if (max(previous, here) > at_surface) then
-            length = length + step*(max(previous, here) - at_surface)/abs(here - previous)
+            length = length + walk%step*(max(previous, here) - at_surface)/abs(here - previous)
          end if
+         k = next_point(walk, k, here)
       end do
    end function wetted_length
 

@@ -1,6 +1,6 @@
 !> Vorticity, rate of strain and eddy coefficients of the base state, measured only where something asks for them.
 !!
-!! Source: eqs. 19-24 and 29 of the paper. The renormalised velocity gradient
+!! Source: eqs. 21-23, 25 and 29 of the paper. The renormalised velocity gradient
 !! du_a/dx_b = sum_j (u_j - u_i)_a (L_i grad W)_b V_j is exact for velocities linear in x and y; particles whose
 !! matrix L is singular have none.
 module gradient_fields

@@ -3,6 +3,7 @@ module body_check
    use findings, only: findings_t
    use kinds, only: dp
    use namelist_document, only: document_t
+   use resting_fluid, only: carried, resting_force, resting_force_t
    use settings, only: body_settings, choice_length, is_wall, settings_t, side_names
    use text, only: short, to_text
    implicit none
@@ -10,6 +11,7 @@ module body_check
 
    public :: check_bodies
 
+   real(dp), parameter :: coarsest = 1.0e-5_dp  ! steps of coordinates in units of dx
    real(dp), parameter :: slack = 1.0e-9_dp   ! of lengths in units of d: rounding of the input
 
 contains
@@ -29,6 +31,7 @@ contains
          call check_pressure(document, setup, i, notes)
          call check_overlap(document, setup, i, notes)
       end do
+      call check_rest(document, setup, notes)
    end subroutine check_bodies
 
    !> The key that says where a body is.
@@ -105,6 +108,13 @@ contains
 
       if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain'))) return
       associate (body => setup%bodies(number), domain => setup%domain)
+         if (spacing(maxval(abs([body%lower, body%upper]))) > coarsest*setup%spacing()) then
+            call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body from '//to_text(body%lower) &
+                               //' to '//to_text(body%upper)//' is so far from 0 that coordinates are ' &
+                               //short(spacing(maxval(abs([body%lower, body%upper]))))//' apart, too coarse for dx = ' &
+                               //short(setup%spacing())//'; move the scene towards the origin')
+            return
+         end if
          kinds_there = setup%side_kinds()
          beyond([1, 3]) = domain%lower - body%lower
          beyond([2, 4]) = body%upper - domain%upper
@@ -131,7 +141,8 @@ contains
       character(:), allocatable :: need
 
       if (setup%bodies(number)%pressure /= 'incompressible') return
-      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid'))) return
+      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid') .and. &
+                 notes%clean('force'))) return
       associate (body => setup%bodies(number), domain => setup%domain)
          margin = slack*setup%scene%reference_length
          need = ''
@@ -140,10 +151,35 @@ contains
             need = 'a body that stands on the floor'
          end if
          if (body%shape /= 'rectangle') need = "shape = 'rectangle'"
-         if (.not. setup%fluid%gravity > 0.0_dp) need = 'gravity above 0'
+         if (.not. setup%fluid%gravity > setup%force%acceleration(2)) need = 'gravity above 0, or acceleration downwards'
       end associate
       if (need /= '') call notes%mistake(document%place_of('body', number, 'pressure'), 'body', what//need//instead)
    end subroutine check_pressure
+
+   !> Hydrostatic pressure is that of fluid that rests: what falls, or is pushed aside, starts with a bang.
+   subroutine check_rest(document, setup, notes)
+      type(document_t), intent(in) :: document
+      type(settings_t), intent(in) :: setup
+      type(findings_t), intent(inout) :: notes
+
+      type(resting_force_t) :: force
+      logical, allocatable :: falls(:)
+      integer :: i
+
+      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid') .and. &
+                 notes%clean('force'))) return
+      force = resting_force(setup)
+      falls = .not. carried(setup, force) .and. setup%bodies%pressure == 'hydrostatic'
+      do i = 1, size(setup%bodies)
+         if (falls(i)) call notes%warning(document%place_of('body', i, 'pressure'), '&body number '//to_text(i)//' lies on no ' &
+                                          //"wall and on no fluid that does: with pressure = 'hydrostatic' it starts as if it " &
+                                          //"stood, and bursts; with 'zero' it falls freely")
+      end do
+      if (force%left_over > 0.0_dp .and. any(setup%bodies%pressure == 'hydrostatic')) &
+         call notes%warning(document%place_of('force', 1, 'acceleration'), "&body pressure = 'hydrostatic' balances the larger " &
+                            //'component of gravity and acceleration; the other one, '//short(force%left_over) &
+                            //', sets the fluid in motion')
+   end subroutine check_rest
 
    !> Bodies must not lie on each other.
    subroutine check_overlap(document, setup, number, notes)

@@ -3,6 +3,7 @@ module derived_settings
    use findings, only: findings_t
    use kinds, only: dp
    use namelist_document, only: document_t
+   use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t
    use text, only: to_text
    implicit none
@@ -47,15 +48,18 @@ contains
       end do
    end subroutine enclose_discs
 
-   !> Without weight, hydrostatic pressure is none.
+   !> Without a force that it balances, hydrostatic pressure is none.
    subroutine resolve_pressures(document, setup, notes)
       type(document_t), intent(in) :: document
       type(settings_t), intent(inout) :: setup
       type(findings_t), intent(inout) :: notes
 
       integer :: i
+      type(resting_force_t) :: force
 
-      if (.not. notes%clean('fluid') .or. setup%fluid%gravity > 0.0_dp) return
+      if (.not. (notes%clean('fluid') .and. notes%clean('force') .and. notes%clean('domain'))) return
+      force = resting_force(setup)
+      if (force%size > 0.0_dp) return
       do i = 1, size(setup%bodies)
          if (setup%bodies(i)%pressure /= 'hydrostatic') cycle
          setup%bodies(i)%pressure = 'zero'

@@ -6,7 +6,7 @@ module key_reader
    use known_keys, only: described, idle_text, known_t, name_length, same_choice, suggest
    use key_words, only: all_values, count_problem, free_text, shown_values, some_values, take_option
    use namelist_document, only: document_t, entry_t, value_t
-   use text, only: lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
+   use text, only: has_control_characters, lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
    use text_cursor, only: letters
    implicit none
    private
@@ -277,6 +277,8 @@ contains
       if (.not. given(1)) return
       if (words(1)%needs_quotes .and. .not. words(1)%quoted) then
          call self%refuse(places(1), name, ': '//words(1)%text//' is text and needs quotes: '//quoted(words(1)%text))
+      else if (has_control_characters(words(1)%text)) then
+         call self%refuse(places(1), name, ' has a line end or another control character in it; write it on one line')
       else if (len_trim(words(1)%text) > len(value)) then
          call self%refuse(places(1), name, ' has '//to_text(len_trim(words(1)%text))//' letters; at most ' &
                           //to_text(len(value))//' can be kept')

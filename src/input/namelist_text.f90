@@ -5,7 +5,7 @@
 module namelist_text
    use findings, only: findings_t
    use namelist_document, only: document_t, entry_t, group_t
-   use text, only: parse_integer, quoted, to_text
+   use text, only: behind, parse_integer, quoted, to_text
    use text_cursor, only: cursor_t, letters, newline, nothing, quotes
    implicit none
    private
@@ -28,10 +28,6 @@ contains
 
       document%file = file
       cursor%content = content
-      if (index(content, nothing) > 0) then
-         call notes%mistake(document%place_of('', 1, ''), '', 'this is not plain text; save the file as UTF-8')
-         return
-      end if
       if (index(content, byte_order_mark) == 1) cursor%at = 1 + len(byte_order_mark)
       do
          call cursor%skip_blanks()
@@ -265,7 +261,7 @@ contains
                problem = quoted(word)//' repeats a value not 1 to '//to_text(most_repeats)//' times'
                return
             else if (message == '') then
-               word = word(star + 1:)
+               word = behind(word, star)
                in_quotes = word == '' .and. scan(cursor%current(), quotes) > 0
                if (word == '' .and. .not. in_quotes) problem = 'a value is missing after '//to_text(repeats)//'*'
             else

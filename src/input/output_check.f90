@@ -95,8 +95,9 @@ contains
             problem = 'needs a wall, and all sides of &domain are open'
          else if (any(distance < -margin)) then
             problem = 'lies outside the box'
-         else if (minval(distance, walls) > setup%smoothing_length()) then
-            problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall; put it on one'
+         else if (minval(distance, walls) > setup%spacing()/2 + margin) then
+            problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall, more than dx/2 = ' &
+                      //short(setup%spacing()/2)//'; put it on the wall'
          else
             along = 2
             if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1

@@ -2,11 +2,13 @@
 module scene_input
    use derived_settings, only: resolve_settings
    use errors, only: exit_files, exit_input, failure
+   use file_system, only: is_link, path_exists
    use key_reader, only: key_reader_t
    use key_writer, only: as_defaults, as_echo, as_shortest, as_tables, as_template, key_writer_t
    use namelist_text, only: scan_namelist
    use override_keys, only: apply_override
    use scene_keys, only: visit_keys
+   use resting_fluid, only: resting_force, resting_force_t
    use settings, only: fluid_settings, settings_t
    use settings_check, only: check_settings
    use text, only: to_text
@@ -61,8 +63,16 @@ contains
       type(failure), intent(inout) :: problem
 
       type(key_reader_t) :: reader
+      character(:), allocatable :: message
       integer :: i
 
+      message = what_is_no_text(content)
+      if (message /= '') then
+         call problem%raise(exit_input, file//': '//message)
+         allocate (character(1) :: warnings(0))
+         allocate (setup%bodies(0), setup%probes(0), setup%gauges(0))
+         return
+      end if
       call scan_namelist(content, file, reader%document, reader%notes)
       do i = 1, size(overrides)
          call apply_override(overrides(i), reader%document, reader%notes)
@@ -123,11 +133,13 @@ contains
 
       type(key_writer_t) :: writer
       type(settings_t) :: copy, defaults
+      type(resting_force_t) :: force
 
       allocate (defaults%bodies(size(setup%bodies)), defaults%probes(size(setup%probes)), defaults%gauges(size(setup%gauges)))
       copy = setup
       call leave_derived_out(copy%fluid)
-      if (.not. copy%fluid%gravity > 0) then
+      force = resting_force(setup)
+      if (.not. force%size > 0) then
          ! Hydrostatic pressure, the default, is none then.
          where (copy%bodies%pressure == 'zero') copy%bodies%pressure = defaults%bodies%pressure
       end if
@@ -204,29 +216,50 @@ contains
       character(:), allocatable, intent(out) :: content
       character(:), allocatable, intent(out) :: message   !! '' when read, else why not and what to do
 
+      character(:), allocatable :: longer
+      character :: letter
       integer :: length, status, unit
-      logical :: there
 
       message = ''
       content = ''
-      inquire (file=path, exist=there)
-      if (.not. there) then
+      if (.not. path_exists(path)) then
          message = 'there is no such file; give the path of a scene, for example input/dam_break.nml'
+         if (is_link(path)) message = 'this link leads to a file that does not exist; give the path of a scene'
          return
       end if
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
       if (status == 0) then
-         inquire (unit=unit, size=length)
-         if (length >= 0) then
-            deallocate (content)
-            allocate (character(length) :: content)
-            if (length > 0) read (unit, iostat=status) content
-         else
-            status = 1
-         end if
+         ! Letter by letter: a pipe does not know how long its text will be.
+         allocate (character(4096) :: longer)
+         length = 0
+         do
+            read (unit, iostat=status) letter
+            if (status /= 0) exit
+            if (length == len(longer)) longer = longer//repeat(' ', length)
+            length = length + 1
+            longer(length:length) = letter
+         end do
+         if (is_iostat_end(status)) status = 0
+         content = longer(:length)
          close (unit)
       end if
       if (status /= 0) message = 'the file cannot be read; is it a text file that you may read?'
    end subroutine load_file
+
+   ! Why this is not a text with lines; '' if it is one.
+   pure function what_is_no_text(content) result(message)
+      character(*), intent(in) :: content
+      character(:), allocatable :: message
+      character(*), parameter :: utf_16(2) = [char(255)//char(254), char(254)//char(255)]
+
+      message = ''
+      if (any(content(:min(2, len(content))) == utf_16)) then
+         message = 'this is text in UTF-16; save the file as UTF-8'
+      else if (index(content, achar(0)) > 0) then
+         message = 'this is not plain text; save the file as UTF-8'
+      else if (index(content, achar(13)) > 0 .and. index(content, achar(10)) == 0) then
+         message = 'lines end with a carriage return alone; save the file with line ends of Unix or Windows'
+      end if
+   end function what_is_no_text
 
 end module scene_input

@@ -168,7 +168,7 @@ contains
    end function smoothing_length
 
    !> The alpha that acts everywhere: the constant model's and the fluid's viscosity together [-].
-   !! Source: eq. 17, mu = alpha h c0 rho0/K with K = 8 in two dimensions.
+   !! Source: eq. 16, mu = alpha h c0 rho0/K with K = 8 in two dimensions.
    pure real(dp) function alpha_total(self)
       class(settings_t), intent(in) :: self
 

@@ -1,6 +1,6 @@
 !> Harmonic means of two particles' coefficients.
 !!
-!! Source: eqs. 25 and 26, 2 a b/(a + b).
+!! Source: eqs. 20 and 24, 2 a b/(a + b).
 module harmonic_means
    use kinds, only: dp
    implicit none

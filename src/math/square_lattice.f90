@@ -36,7 +36,7 @@ contains
 
    !> nu/(alpha h c0) of a transverse wave: sum_j (1 - cos k.r) (t.r)**2/r**2 F dx**2 / k**2, t normal to k.
    !!
-   !! Tends to 1/8 for h >> dx (eq. 17, K = 8). Without `k`: the limit of long waves,
+   !! Tends to 1/8 for h >> dx (eq. 16, K = 8). Without `k`: the limit of long waves,
    !! sum_j (e.r)**2 (t.r)**2/(2 r**2) F dx**2, along `direction`.
    pure real(dp) function shear_coefficient(ratio, direction, k) result(coefficient)
       real(dp), intent(in) :: ratio          !! h/dx

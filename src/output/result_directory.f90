@@ -176,12 +176,12 @@ contains
       hint = '; choose another directory with --output DIR'
    end function hint_other
 
-   !> A path without blanks around it and slashes at its end; '.' for none at all.
+   !> A path without blanks and slashes at its end; '.' for none at all.
    pure function without_slashes(path) result(clean)
       character(*), intent(in) :: path
       character(:), allocatable :: clean
 
-      clean = trim(adjustl(path))
+      clean = trim(path)
       do while (len(clean) > 1)
          if (clean(len(clean):) /= '/') exit
          clean = clean(:len(clean) - 1)

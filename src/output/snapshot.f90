@@ -4,7 +4,7 @@ module snapshot
    use, intrinsic :: iso_fortran_env, only: int8
    use errors, only: failure
    use hdf5_writer, only: hdf5_writer_t
-   use kinds, only: dp, i8
+   use kinds, only: dp, i8, sp
    implicit none
    private
 
@@ -60,7 +60,7 @@ contains
       call file%attach(grid, 'Version', [1, 0])
       call file%put_label(grid, 'Type', 'UnstructuredGrid')
       call write_cells(file, size(x))
-      call file%put_vectors(grid//'/Points', x, y, single)
+      call file%put_vectors(grid//'/Points', x, y, single .and. fine_enough(x, y, head%spacing))
       call label(file, grid//'/Points', 'length', 'position (x, y, 0)')
       call file%make_group(grid//'/PointData')
       call file%put_integers(points//'id', id)
@@ -74,6 +74,18 @@ contains
       call label(file, grid//'/FieldData/TimeValue', 'time', 'time of the snapshot')
       call file%finish(problem)
    end subroutine write_snapshot
+
+   ! Whether coordinates in single precision tell particles apart: far from the origin they do not.
+   pure logical function fine_enough(x, y, dx)
+      real(dp), intent(in) :: x(:), y(:), dx
+      real(dp), parameter :: coarsest = 1.0e-2_dp   ! steps of coordinates in units of dx
+      real(dp) :: farthest
+
+      fine_enough = .true.
+      if (size(x) == 0) return
+      farthest = max(maxval(abs(x)), maxval(abs(y)))
+      fine_enough = farthest*epsilon(1.0_sp) <= coarsest*dx
+   end function fine_enough
 
    !> The run's attributes on the root group.
    subroutine write_head(file, head)

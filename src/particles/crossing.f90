@@ -41,45 +41,40 @@ contains
 
    !> Puts a particle that crossed a wall back inside, its normal velocity pointing inwards.
    !!
-   !! Where it is lifted against gravity, its speed falls by what it gains in height, so that the crossing adds no
-   !! energy; only a particle that is too slow even to reach the floor is put there.
-   pure subroutine reflect(walls, gravity, x, y, u, v, crossed)
+   !! Where it is lifted against a force, its speed falls by what that takes, so that the crossing adds no energy; only a
+   !! particle that is too slow even to reach the wall is put there.
+   pure subroutine reflect(walls, force, x, y, u, v, crossed)
       type(walls_t), intent(in) :: walls
-      real(dp), intent(in) :: gravity              !! along -y
+      real(dp), intent(in) :: force(2)             !! gravity and all else that acts at the wall [length/time^2]
       real(dp), intent(inout) :: x, y, u, v
       logical, intent(out) :: crossed
-      real(dp) :: depth
 
       crossed = .false.
-      if (walls%present(left_wall)) call mirror(x, u, walls%at(left_wall), 1.0_dp, crossed)
-      if (walls%present(right_wall)) call mirror(x, u, walls%at(right_wall), -1.0_dp, crossed)
-      if (walls%present(bottom_wall)) then
-         depth = max(0.0_dp, walls%at(bottom_wall) - y)
-         if (v**2 < 4*gravity*depth) then
-            ! Too slow to rise as far above the floor as it is below: it gets as high as its energy takes it.
-            y = walls%at(bottom_wall) + max(0.0_dp, v**2/(2*gravity) - depth)
-            v = 0
-            crossed = .true.
-         else
-            v = sign(sqrt(v**2 - 4*gravity*depth), v)
-            call mirror(y, v, walls%at(bottom_wall), 1.0_dp, crossed)
-         end if
-      end if
-      if (walls%present(top_wall)) then
-         v = sign(sqrt(v**2 + 4*gravity*max(0.0_dp, y - walls%at(top_wall))), v)
-         call mirror(y, v, walls%at(top_wall), -1.0_dp, crossed)
-      end if
+      if (walls%present(left_wall)) call mirror(x, u, walls%at(left_wall), 1, -force(1), crossed)
+      if (walls%present(right_wall)) call mirror(x, u, walls%at(right_wall), -1, force(1), crossed)
+      if (walls%present(bottom_wall)) call mirror(y, v, walls%at(bottom_wall), 1, -force(2), crossed)
+      if (walls%present(top_wall)) call mirror(y, v, walls%at(top_wall), -1, force(2), crossed)
    end subroutine reflect
 
-   pure subroutine mirror(coordinate, velocity, wall, inward, crossed)
+   pure subroutine mirror(coordinate, velocity, wall, inward, pull, crossed)
       real(dp), intent(inout) :: coordinate, velocity
-      real(dp), intent(in) :: wall, inward   !! inward = 1 or -1: towards the fluid
+      real(dp), intent(in) :: wall
+      integer, intent(in) :: inward       !! 1 or -1: towards the fluid
+      real(dp), intent(in) :: pull        !! force towards the wall
       logical, intent(inout) :: crossed
+      real(dp) :: depth
 
-      if (.not. (wall - coordinate)*inward > 0) return
-      coordinate = 2*wall - coordinate
-      velocity = sign(velocity, inward)
+      depth = (wall - coordinate)*inward
+      if (.not. depth > 0) return
       crossed = .true.
+      if (velocity**2 < 4*pull*depth) then
+         ! Too slow to rise as far above the wall as it is below: it gets as high as its energy takes it.
+         coordinate = wall + inward*max(0.0_dp, velocity**2/(2*pull) - depth)
+         velocity = 0
+      else
+         velocity = sign(sqrt(velocity**2 - 4*pull*depth), real(inward, dp))
+         coordinate = 2*wall - coordinate
+      end if
    end subroutine mirror
 
 end module crossing

@@ -48,7 +48,6 @@ contains
       total = 0
       alpha = model%alpha
       delta = model%delta
-      jump = 0
       do k = block%first(c), block%first(c + 1) - 1
          j = block%slot(k)
          if (model%dynamic) then
@@ -56,7 +55,8 @@ contains
                                    unused)
             alpha = model%alpha + alpha
          end if
-         if (p%features%no_slip) jump = [p%jump_u(j), p%jump_v(j)]
+         jump = 0
+         if (p%features%no_slip .and. k >= block%first_image(c)) jump = [p%jump_u(j), p%jump_v(j)]
          ! p/rho = c0**2 e
          e_j = p%base%s(j)/(model%rho0 + p%base%s(j))
          call add_slot(model%kernel, p, i0, j, jump, model%rho0*alpha, model%c0**2*delta*(e_j - e_i), total)

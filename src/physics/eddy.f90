@@ -1,8 +1,8 @@
 !> The dynamic model: alpha_i and delta_i from the rate of strain, and the diffusive terms with them.
 !!
-!! Source: eqs. 19-26. D_i = 1/2 sum_j [u_ji (x) L_i grad W + L_i grad W (x) u_ji] V_j, ||D|| = sqrt(2 D:D),
+!! Source: eqs. 22 and 23, D_i = 1/2 sum_j [u_ji (x) L_i grad W + L_i grad W (x) u_ji] V_j, ||D|| = sqrt(2 D:D); eqs. 21, 25, 26,
 !! nu_T = (C_S l)**2 ||D||, nu_delta = (C_delta l)**2 ||D|| with l = 2h; alpha_i = K nu_T/(c0 h),
-!! delta_i = nu_delta/(c0 h), both limited; between two particles their harmonic means act.
+!! delta_i = nu_delta/(c0 h), both limited; between two particles their harmonic means act, eqs. 20 and 24.
 module eddy
    use candidates, only: block_slots
    use diffusion, only: freeze_viscosity
@@ -37,14 +37,14 @@ contains
       gradient%v_y = factor*(sums%v_x(k)*l_xy + sums%v_y(k)*l_yy)
    end function velocity_gradient
 
-   !> ||D|| = sqrt(2 D:D), eq. 20.
+   !> ||D|| = sqrt(2 D:D), eq. 22.
    elemental real(dp) function strain_rate(gradient)
       type(velocity_gradient_t), intent(in) :: gradient
 
       strain_rate = sqrt(2*(gradient%u_x**2 + gradient%v_y**2) + (gradient%u_y + gradient%v_x)**2)
    end function strain_rate
 
-   !> alpha_i and delta_i of a strain rate, eqs. 21-24 with their limiters.
+   !> alpha_i and delta_i of a strain rate, eqs. 21 and 25 with their limiters.
    elemental subroutine eddy_coefficients(model, strain, alpha, delta)
       type(model_t), intent(in) :: model
       real(dp), intent(in) :: strain            !! ||D||
@@ -78,7 +78,7 @@ contains
       singular = singular + count(p%id(i0 + 1:i0 + n) > 0 .and. .not. regular(:n) > 0)
    end subroutine freeze_coefficients
 
-   !> The viscous acceleration and the density-diffusion rate, eq. 5 with eqs. 25 and 26.
+   !> The viscous acceleration and the density-diffusion rate, eq. 5 with eqs. 20 and 24.
    pure subroutine freeze_eddy_terms(model, sums, p, i0, n)
       type(model_t), intent(in) :: model
       type(eddy_sums_t), intent(in) :: sums

@@ -1,6 +1,6 @@
 !> Pair sums of the diffusive terms with the dynamic model, for a block of clusters.
 !!
-!! Source: eqs. 5-7 with the pair coefficients of eqs. 25 and 26, alpha_ij besides the real viscosity's alpha.
+!! Source: eqs. 5-7 with the pair coefficients of eqs. 20 and 24, alpha_ij besides the real viscosity's alpha.
 !! As D_ij . grad W = [2 (s_j - s_i) - (G_i + G_j) . r_ji] F, the 1/r**2 of eq. 6 cancels.
 module eddy_sums
    use candidates, only: block_slots, candidates_t

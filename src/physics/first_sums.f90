@@ -1,7 +1,7 @@
 !> Pair sums of a step's first pass, for a block of clusters: everything that needs no gradient and no coefficient of a
 !! neighbour.
 !!
-!! Source: eqs. 5-8 and 20. Besides the flow terms these are, as far as a scene needs them, the renormalisation matrix L**-1,
+!! Source: eqs. 5-8 and 23. Besides the flow terms these are, as far as a scene needs them, the renormalisation matrix L**-1,
 !! the gradient of density, the viscous sum or the velocity gradient, and the largest |pi_ij|.
 module first_sums
    use candidates, only: block_slots, candidates_t

@@ -24,8 +24,8 @@ module model
       logical :: dynamic = .false.    !! alpha_i and delta_i from the rate of strain
       real(dp) :: alpha = 0           !! viscous coefficient that acts everywhere, real viscosity included
       real(dp) :: delta = 0           !! density-diffusion coefficient of the constant model
-      real(dp) :: alpha_per_strain = 0   !! alpha_i/||D||, eqs. 22 and 24
-      real(dp) :: delta_per_strain = 0   !! delta_i/||D||, eqs. 21 and 23
+      real(dp) :: alpha_per_strain = 0   !! alpha_i/||D||, eq. 25
+      real(dp) :: delta_per_strain = 0   !! delta_i/||D||, eq. 21
       real(dp) :: limit = 0           !! of alpha_i and delta_i
       real(dp) :: largest_strain = huge(1.0_dp)   !! ||D|| is clipped here
       real(dp) :: viscosity = 0       !! real dynamic viscosity, for Q_omega (eq. 29)
@@ -39,6 +39,7 @@ module model
       procedure :: advective_limit
       procedure :: longest_step
       procedure :: has_force
+      procedure :: force_at
    end type model_t
 
 contains
@@ -77,5 +78,15 @@ contains
 
       has_force = any(abs(self%acceleration) > 0)
    end function has_force
+
+   !> Gravity, uniform and central force at a place [length/time^2].
+   pure function force_at(self, place) result(force)
+      class(model_t), intent(in) :: self
+      real(dp), intent(in) :: place(2)
+      real(dp) :: force(2)
+
+      force = self%acceleration - [0.0_dp, self%gravity]
+      if (self%central_rate > 0) force = force - self%central_rate**2*(place - self%centre)
+   end function force_at
 
 end module model

@@ -2,39 +2,49 @@
 module initial_pressure
    use hydrostatics, only: hydrostatic_pressure
    use kinds, only: dp
-   use settings, only: body_settings, settings_t
+   use resting_fluid, only: depth_of, resting_force, resting_force_t
+   use settings, only: settings_t
    implicit none
    private
 
-   public :: pressure_at, released_column
+   public :: pressure_at, pushed_column, released_column
 
    real(dp), parameter :: pi = acos(-1.0_dp)
+   integer, parameter :: terms = 2000   !! of a series, at most
 
 contains
 
    !> Pressure at a position in a body, by the body's choice.
-   pure real(dp) function pressure_at(scene, body, position) result(p)
+   pure real(dp) function pressure_at(scene, number, position) result(p)
       type(settings_t), intent(in) :: scene
-      type(body_settings), intent(in) :: body
+      integer, intent(in) :: number          !! of the body
       real(dp), intent(in) :: position(2)
-      real(dp) :: x
+      type(resting_force_t) :: force
+      real(dp) :: x, y, away
       logical :: on_wall(2)
 
-      select case (body%pressure)
-      case ('hydrostatic')
-         associate (fluid => scene%fluid)
-            p = hydrostatic_pressure(body%upper(2) - position(2), fluid%density, fluid%sound_speed, fluid%gravity)
-         end associate
-      case ('incompressible')
-         ! x is the distance from the side wall that the column leans on.
-         x = position(1) - body%lower(1)
-         on_wall = scene%leans(body)
-         if (on_wall(2)) x = body%upper(1) - position(1)
-         p = scene%fluid%density*scene%fluid%gravity &
-             *released_column(x, position(2) - body%lower(2), body%upper(1) - body%lower(1), body%upper(2) - body%lower(2))
-      case default
-         p = 0
-      end select
+      p = 0
+      associate (body => scene%bodies(number), fluid => scene%fluid, acceleration => scene%force%acceleration)
+         select case (body%pressure)
+         case ('hydrostatic')
+            force = resting_force(scene)
+            p = hydrostatic_pressure(depth_of(scene, force, number, position), fluid%density, fluid%sound_speed, force%size)
+         case ('incompressible')
+            ! x is the distance from the side wall that the column leans on.
+            x = position(1) - body%lower(1)
+            y = position(2) - body%lower(2)
+            away = acceleration(1)
+            on_wall = scene%leans(body)
+            if (on_wall(2)) then
+               x = body%upper(1) - position(1)
+               away = -away
+            end if
+            associate (width => body%upper(1) - body%lower(1), height => body%upper(2) - body%lower(2))
+               p = fluid%density*(fluid%gravity - acceleration(2))*released_column(x, y, width, height)
+               if (abs(away) > 0) p = p - fluid%density*away*pushed_column(x, y, width, height)
+            end associate
+         end select
+      end associate
    end function pressure_at
 
    !> p/(rho g) in a column of incompressible fluid at the moment its gate is gone.
@@ -44,7 +54,6 @@ contains
    elemental real(dp) function released_column(x, y, width, height) result(head)
       real(dp), intent(in) :: x, y            !! from the foot of the wall
       real(dp), intent(in) :: width, height   !! W, H
-      integer, parameter :: terms = 2000
       real(dp) :: k, ratio
       integer :: n
 
@@ -56,5 +65,23 @@ contains
          if (ratio < 1.0e-14_dp) exit
       end do
    end function released_column
+
+   !> -p/(rho a) in the same column by a force a away from the wall: the part that does not depend on gravity.
+   !!
+   !! dp/dx = rho a at the wall, dp/dy = 0 on the floor: sum_n (-1)**n 2/(H k_n**2) sinh(k_n (W - x))/cosh(k_n W) cos(k_n y).
+   elemental real(dp) function pushed_column(x, y, width, height) result(head)
+      real(dp), intent(in) :: x, y            !! from the foot of the wall
+      real(dp), intent(in) :: width, height   !! W, H
+      real(dp) :: k, ratio
+      integer :: n
+
+      head = 0
+      do n = 0, terms
+         k = (n + 0.5_dp)*pi/height
+         ratio = exp(-k*x)*(1 - exp(-2*k*(width - x)))/(1 + exp(-2*k*width))
+         head = head + merge(2, -2, mod(n, 2) == 0)/(height*k**2)*ratio*cos(k*y)
+         if (ratio < 1.0e-14_dp) exit
+      end do
+   end function pushed_column
 
 end module initial_pressure

@@ -1,24 +1,48 @@
 !> The limits of the weakly-compressible model, eq. 4 and sec. 2 of the paper: Ma <= 0.1 and |rho - rho0|/rho0 <= 1 %.
 module limits
    use kinds, only: dp
+   use model, only: model_t
+   use particles, only: particles_t
    use run_log, only: log_t
-   use text, only: short
+   use text, only: short, to_text
    use time_step, only: step_t
    implicit none
    private
 
-   public :: watch_limits, report_limits, sound_speed_for_mach, sound_speed_for_density
+   public :: extremes_t, watch_limits, report_limits, sound_speed_for_mach, sound_speed_for_density
 
    real(dp), parameter :: mach_limit = 0.1_dp, variation_limit = 0.01_dp
    character(*), parameter :: mach_key = 'Mach number', density_key = 'density'
 
+   !> How many particles shared in the largest values, at the time of these or shortly before.
+   type :: extremes_t
+      real(dp) :: mach = 0, variation = 0   !! that they were counted at
+      integer :: fast = 0, dense = 0        !! particles with more than half of that
+   end type extremes_t
+
+   real(dp), parameter :: grown = 1.05_dp         !! since the last count: worth another
+   real(dp), parameter :: few_share = 0.01_dp     !! of all particles
+
 contains
 
-   !> Warns when a limit is passed for the first time.
-   subroutine watch_limits(log, run)
+   !> Warns when a limit is passed for the first time, and counts the particles that did it.
+   subroutine watch_limits(extremes, log, model, p, run)
+      type(extremes_t), intent(inout) :: extremes
       type(log_t), intent(inout) :: log
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p   !! base state
       type(step_t), intent(in) :: run
 
+      associate (own => p%id(:p%n_own) > 0, u => p%base%u(:p%n_own), v => p%base%v(:p%n_own), s => p%base%s(:p%n_own))
+         if (run%mach > max(mach_limit, grown*extremes%mach)) then
+            extremes%mach = run%mach
+            extremes%fast = count(own .and. max(u**2 + v**2, model%c0**2*s/(model%rho0 + s)) > (run%mach*model%c0/2)**2)
+         end if
+         if (run%variation > max(variation_limit, grown*extremes%variation)) then
+            extremes%variation = run%variation
+            extremes%dense = count(own .and. abs(s) > run%variation*model%rho0/2)
+         end if
+      end associate
       if (run%mach > mach_limit .and. log%warning_count(mach_key) == 0) call log%warn(mach_key, &
          'Mach number above 0.1 from t = '//short(run%time)//' on; a larger sound_speed would hold it')
       if (run%variation > variation_limit .and. log%warning_count(density_key) == 0) call log%warn(density_key, &
@@ -27,20 +51,32 @@ contains
 
    !> Says at the end of the run how far the limits were passed, and which sound speeds would have held them.
    !!
-   !! Both maxima are of single particles: one that a collapsing cavity throws out may ask for ten times what the
+   !! Both maxima may be of single particles: one that a collapsing cavity throws out may ask for ten times what the
    !! flow as a whole needs.
-   subroutine report_limits(log, c0, run)
+   subroutine report_limits(extremes, log, c0, n, run)
+      type(extremes_t), intent(in) :: extremes
       type(log_t), intent(inout) :: log
       real(dp), intent(in) :: c0
+      integer, intent(in) :: n   !! particles
       type(step_t), intent(in) :: run
 
       if (run%largest_mach > mach_limit) call log%warn(mach_key, 'largest Mach number '//short(run%largest_mach) &
-         //', of a single particle (a collapsing cavity makes some very fast); c0 = ' &
+         //sharers(extremes%fast, n, 'a collapsing cavity makes some very fast')//'; c0 = ' &
          //short(sound_speed_for_mach(c0, run))//' instead of '//short(c0)//' would have held 0.1 at this speed')
       if (run%largest_variation > variation_limit) call log%warn(density_key, 'largest density variation ' &
-         //short(100*run%largest_variation)//' %, of a single particle; c0 = '//short(sound_speed_for_density(c0, run)) &
-         //' instead of '//short(c0)//' would have held 1 % at this pressure')
+         //short(100*run%largest_variation)//' %'//sharers(extremes%dense, n, 'a collapsing cavity squeezes some') &
+         //'; c0 = '//short(sound_speed_for_density(c0, run))//' instead of '//short(c0)//' would have held 1 % at this pressure')
    end subroutine report_limits
+
+   ! Whose a maximum was.
+   pure function sharers(number, n, why) result(words)
+      integer, intent(in) :: number, n   !! particles with more than half of it; all
+      character(*), intent(in) :: why    !! it may be of few only
+      character(:), allocatable :: words
+
+      words = ', more than half of that in '//to_text(number)//' of '//to_text(n)//' particles'
+      if (number <= max(1, int(few_share*n))) words = words//' ('//why//')'
+   end function sharers
 
    !> Sound speed at which the largest speed would have been Ma = 0.1.
    pure real(dp) function sound_speed_for_mach(c0, run) result(needed)

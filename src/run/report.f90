@@ -67,7 +67,7 @@ contains
       real(dp) :: speed, nu
 
       speed = reference_speed(scene)
-      nu = model%alpha*model%kernel%h*model%c0/8   ! eq. 17
+      nu = model%alpha*model%kernel%h*model%c0/8   ! eq. 16
       if (.not. nu > 0) then
          words = 'none: alpha = 0'
          if (model%dynamic) words = 'none: viscosity = 0'
@@ -188,11 +188,19 @@ contains
 
       words = ''
       do k = 1, size(names)
-         if (marked(k)) words = words//', '//trim(names(k))
+         if (marked(k)) call append(words, trim(names(k)))
       end do
-      if (words == '') words = ', nothing'
-      words = words(3:)
+      if (words == '') words = 'nothing'
    end function names_text
+
+   ! Adds an item to a list of words, behind a comma if it is not the first.
+   pure subroutine append(words, item)
+      character(:), allocatable, intent(inout) :: words
+      character(*), intent(in) :: item
+
+      if (len(words) > 0) words = words//', '
+      words = words//item
+   end subroutine append
 
    function sides_text(sides) result(words)
       logical, intent(in) :: sides(4)
@@ -203,7 +211,7 @@ contains
       if (sides(right_wall)) words = words//' right'
       if (sides(bottom_wall)) words = words//' bottom'
       if (sides(top_wall)) words = words//' top'
-      words = words(2:)
+      words = trim(adjustl(words))
    end function sides_text
 
    !> Time by phase, budget and files.
@@ -234,13 +242,12 @@ contains
 
       associate (b => budget, has => budget%has)
          words = ''
-         if (has%viscosity) words = words//', Q_alpha '//short(b%q_alpha/b%normaliser)
-         if (has%diffusion) words = words//', Q_delta '//short(b%q_delta/b%normaliser)
-         if (has%viscosity .and. has%diffusion) words = words//', Q_total '//short((b%q_alpha + b%q_delta)/b%normaliser)
+         if (has%viscosity) call append(words, 'Q_alpha '//short(b%q_alpha/b%normaliser))
+         if (has%diffusion) call append(words, 'Q_delta '//short(b%q_delta/b%normaliser))
+         if (has%viscosity .and. has%diffusion) call append(words, 'Q_total '//short((b%q_alpha + b%q_delta)/b%normaliser))
          words = words//' of dE_Mtot'
-         if (.not. (has%viscosity .or. has%diffusion)) words = ', nothing dissipates'
+         if (.not. (has%viscosity .or. has%diffusion)) words = 'nothing dissipates'
       end associate
-      words = words(3:)
    end function dissipation_text
 
    function works_text(budget) result(words)

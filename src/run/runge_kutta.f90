@@ -4,6 +4,7 @@
 module runge_kutta
    use candidates, only: block_slots
    use crossing, only: outside, reflect, wrap
+   use images, only: bottom_wall, left_wall, right_wall, top_wall
    use flow, only: rates_t
    use integrators, only: most_stages
    use kinds, only: dp, sp
@@ -346,19 +347,22 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: x, y
+      real(dp) :: before(2), moved(2), at_wall(2)
       logical :: crossed
       integer :: i
 
       do i = i0 + 1, i0 + n
          if (.not. outside(model%walls, p%next%x(i), p%next%y(i))) cycle
          if (p%id(i) == 0) cycle
-         x = p%next%x(i)
-         y = p%next%y(i)
-         call reflect(model%walls, model%gravity, p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
+         before = [p%next%x(i), p%next%y(i)]
+         at_wall = min(max(before, model%walls%at([left_wall, bottom_wall])), model%walls%at([right_wall, top_wall]))
+         call reflect(model%walls, model%force_at(at_wall), p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
          if (crossed) then
+            moved = [p%next%x(i), p%next%y(i)] - before
             sums%crossings = sums%crossings + 1
-            sums%jump = max(sums%jump, hypot(p%next%x(i) - x, p%next%y(i) - y))
+            sums%jump = max(sums%jump, hypot(moved(1), moved(2)))
+            ! What the uniform force gave is not in the positions, as gravity's energy is.
+            sums%work(4) = sums%work(4) + p%m(i)*dot_product(model%acceleration, moved)
          end if
          if (any(model%walls%periodic)) then
             call wrap(model%walls, p%next%x(i), p%next%y(i))

@@ -132,7 +132,7 @@ contains
                position = [sites%x(i), sites%y(i)]
                velocity = body%velocity
                if (body%flow == 'exact') velocity = solution%velocity(position)
-               pressure = pressure_at(scene, body, position)
+               pressure = pressure_at(scene, k, position)
                if (body%pressure == 'exact') pressure = solution%pressure(position)
                p%id(slot) = slot
                p%next%x(slot) = position(1)

@@ -4,7 +4,7 @@ module simulation
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use images, only: bottom_wall
-   use limits, only: report_limits, watch_limits
+   use limits, only: extremes_t, report_limits, watch_limits
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
@@ -16,7 +16,7 @@ module simulation
    use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
    use step_check, only: check_step
-   use text, only: short
+   use text, only: short, to_text
    use threads, only: limit_threads
    use time_step, only: advance, refresh, start_extremes, step_t
    use timers, only: timers_t, wall_seconds
@@ -46,6 +46,7 @@ contains
       type(step_t) :: run
       type(recorder_t) :: recorder
       type(timers_t) :: timers
+      type(extremes_t) :: extremes
       type(failure) :: closing
       character(:), allocatable :: status, reason
       real(dp) :: started, seconds
@@ -69,7 +70,7 @@ contains
          return
       end if
       began = .true.
-      call main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
+      call main_loop(scene, model, p, near, run, recorder, directory, log, timers, extremes, status, problem)
       ! A failed run keeps all that it has measured.
       call recorder%finish(closing)
       reason = ''
@@ -79,13 +80,15 @@ contains
       if (closing%raised()) call problem%raise(closing%code, closing%message)
       if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
          //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
-      call report_limits(log, model%c0, run)
+      call report_limits(extremes, log, model%c0, p%n, run)
+      if (.not. problem%raised() .and. run%time < scene%time%end_time) call log%warn('ended early', 'the run ended at t = ' &
+         //short(run%time)//' of end_time = '//short(scene%time%end_time)//': '//limit_reached(scene, status))
       if (reason /= '') call log%keep(reason)
       call log%report_warnings()
       call closing_table(log, timers, seconds, recorder%budget, run, directory%path)
    end subroutine simulate
 
-   subroutine main_loop(scene, model, p, near, run, recorder, directory, log, timers, status, problem)
+   subroutine main_loop(scene, model, p, near, run, recorder, directory, log, timers, extremes, status, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -95,6 +98,7 @@ contains
       type(result_directory_t), intent(in) :: directory
       type(log_t), intent(inout) :: log
       type(timers_t), intent(inout) :: timers
+      type(extremes_t), intent(inout) :: extremes
       character(:), allocatable, intent(out) :: status
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
@@ -129,7 +133,7 @@ contains
             call recorder%record(scene, model, p, near, run, directory, .true., ignored)
             exit
          end if
-         call watch_limits(log, run)
+         call watch_limits(extremes, log, model, p, run)
          call progress%update(log, run%time, run%dt, run%step)
       end do
    end subroutine main_loop
@@ -150,5 +154,15 @@ contains
          status = 'stopped: max_wall_time'
       end if
    end function reason_to_end
+
+   ! The key, with its value, that a status names.
+   function limit_reached(scene, status) result(words)
+      type(settings_t), intent(in) :: scene
+      character(*), intent(in) :: status
+      character(:), allocatable :: words
+
+      words = '&time max_wall_time = '//short(scene%time%max_wall_time)//' s'
+      if (index(status, 'max_steps') > 0) words = '&time max_steps = '//to_text(scene%time%max_steps)
+   end function limit_reached
 
 end module simulation

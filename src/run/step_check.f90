@@ -1,7 +1,7 @@
 !> Whether a run can go on from the result of a step.
 module step_check
    use errors, only: exit_numerics, failure
-   use images, only: bottom_wall
+   use images, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -53,9 +53,22 @@ contains
          if (.not. norm2([next%u(i), next%v(i)]) < fastest*model%c0) what = 'speed'
          call problem%raise(exit_numerics, 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i) &
                             //', has speed/c0 '//to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 ' &
-                            //to_text(next%s(i)/model%rho0)//'; a smaller cfl or a larger sound_speed may help')
+                            //to_text(next%s(i)/model%rho0)//remedy(model, p%base%x(i), p%base%y(i)))
       end associate
    end subroutine explain_loss
+
+   ! What may help; nothing that a smaller step could do helps where fluid falls out of the box.
+   pure function remedy(model, x, y) result(words)
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: x, y   !! where the particle was
+      character(:), allocatable :: words
+
+      words = '; a smaller cfl or a larger sound_speed may help'
+      associate (at => model%walls%at)
+         if (x < at(left_wall) .or. x > at(right_wall) .or. y < at(bottom_wall) .or. y > at(top_wall)) &
+            words = ', outside of &domain; close the open side it left by, or end the run before'
+      end associate
+   end function remedy
 
    ! 'N at t = T', for messages.
    pure function moment(run) result(words)

@@ -106,7 +106,7 @@ contains
       end do
    end function gradients_directly
 
-   !> ||D|| of the own particles, eq. 20: D = 1/2 sum_j [u_ji (x) L grad W + L grad W (x) u_ji] V_j.
+   !> ||D|| of the own particles, eqs. 22 and 23: D = 1/2 sum_j [u_ji (x) L grad W + L grad W (x) u_ji] V_j.
    pure function strain_directly(model, points, direct) result(norm)
       type(model_t), intent(in) :: model
       type(points_t), intent(in) :: points   !! images included, with the velocities that viscosity sees
@@ -136,7 +136,7 @@ contains
       if (a > 0 .and. b > 0) mean = 2*a*b/(a + b)
    end function mean
 
-   !> (rho0/rho_i) h c0 sum_j alpha_ij pi_ij grad W V_j, eq. 5 with eq. 25, of the own particles.
+   !> (rho0/rho_i) h c0 sum_j alpha_ij pi_ij grad W V_j, eq. 5 with eq. 24, of the own particles.
    pure function viscosity_directly(model, points, n, alpha) result(acceleration)
       type(model_t), intent(in) :: model
       type(points_t), intent(in) :: points       !! images included, with the velocities that viscosity sees

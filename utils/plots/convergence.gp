@@ -1,7 +1,7 @@
 # Errors against resolution, one panel for each scene, by utils/studies/convergence.
 #
 # usage: gnuplot -e "out='DIRECTORY'; scenes='SCENE SCENE'" utils/plots/convergence.gp     writes DIRECTORY/convergence.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set datafile missing 'none'
 

@@ -1,7 +1,7 @@
 # Dissipated energy by its cause (Figs. 13 and 14 of the paper).
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/dissipation.gp     writes RESULT/dissipation.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 data = dir.'/energy.dat'
 

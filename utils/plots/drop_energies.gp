@@ -1,7 +1,7 @@
 # Energies of the oscillating drop with those published by Antuono et al. 2015, by utils/studies/drop_energies.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/drop_energies.gp     writes RESULT/energies.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set terminal pngcairo size 1100,620 font font
 set output dir.'/energies.png'

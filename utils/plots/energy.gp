@@ -1,7 +1,7 @@
 # Energies against time, as shares of the energy the flow can lose (Figs. 9 and 12 of the paper).
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/energy.gp     writes RESULT/energy.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 data = dir.'/energy.dat'
 

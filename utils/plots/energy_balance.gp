@@ -2,7 +2,7 @@
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/energy_balance.gp     writes RESULT/energy_balance.png
 #        gnuplot -e "dirs='RESULT RESULT ...'; png='PICTURE'" utils/plots/energy_balance.gp
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 single = exists("dir")
 if (single) { dirs = dir; png = dir.'/energy_balance.png' }

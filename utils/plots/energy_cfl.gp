@@ -1,7 +1,7 @@
 # Largest error of the energy balance against the cfl number, a line for each scene and integrator, by utils/studies/error_vs_time.
 #
 # usage: gnuplot -e "table='TABLE'; png='PICTURE'" utils/plots/energy_cfl.gp
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set datafile missing 'none'
 set terminal pngcairo size 1150,720 font font

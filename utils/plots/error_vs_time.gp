@@ -3,7 +3,7 @@
 # usage: gnuplot -e "out='DIRECTORY'; png='PICTURE'; panels='SCENE:ERROR ...'; methods='METHOD ...'" utils/plots/error_vs_time.gp
 #
 # Reads DIRECTORY/SCENE.dat; a panel for each SCENE:ERROR, and the key in the last place.
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set datafile missing 'none'
 

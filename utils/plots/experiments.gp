@@ -3,7 +3,7 @@
 # usage: gnuplot -e "dir='RESULT'" utils/plots/experiments.gp
 #
 # Writes sensor2.png, sensors.png, buchner.png, martin_moyce.png and square.png to RESULT, from the curves in RESULT/curves.
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 curves = dir.'/curves/'
 set key inside center top vertical Left reverse samplen 2.5 spacing 1.2

@@ -7,9 +7,9 @@
 #   panels='velocity pressure'  names of arrays to colour by, vectors by magnitude
 #   x_min=, x_max=, y_max=    the same frame for several pictures
 #   table='FILE.txt'          an already converted snapshot    converter='...'    dynsph-snapshot-to-text
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
-if (!exists("converter")) converter = 'build/bin/dynsph-snapshot-to-text'
+if (!exists("converter")) converter = plots.'/../../build/bin/dynsph-snapshot-to-text'
 if (!exists("png")) png = dir.'/field.png'
 if (!exists("panels")) panels = 'velocity pressure'
 temporary = ''

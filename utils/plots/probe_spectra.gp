@@ -8,10 +8,10 @@
 #   probe='P1'                one probe of each table; else all
 #   png='FILE.png'            another picture             title='...'    another heading
 #   f_max=, f_min=            frequencies shown           s_max=, s_min=   densities shown
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 first = word(tables, 1)
-folder(file) = system("cd \"$(dirname '".file."')\" && basename \"$PWD\"")
+folder(file) = system("cd \"$(dirname '".file."')\" && basename \"$(pwd -P)\"")
 if (!exists("png")) png = system("dirname '".first."'").'/probe_spectrum.png'
 if (!exists("title")) title = head_text(first, 'title')
 if (!exists("labels")) { labels = ''; do for [k=1:words(tables)] { labels = labels.' "'.folder(word(tables, k)).'"' } }

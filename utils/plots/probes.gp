@@ -1,7 +1,7 @@
 # What probes and gauges measure against time: pressures in one panel, lengths in one below; only what there is.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/probes.gp     writes RESULT/probes.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 data = dir.'/probes.dat'
 

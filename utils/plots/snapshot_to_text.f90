@@ -66,7 +66,7 @@ contains
       call add_column(wide, n, 'x', values(1, :))
       call add_column(wide, n, 'y', values(2, :))
       do i = 1, size(names)
-         call file%read_field(names(i), values, problem)
+         call file%read_field(names(i), size(wide(1)%values), values, problem)
          if (problem%raised()) return
          if (size(values, 1) > 1) then
             call add_column(wide, n, trim(names(i))//'_x', values(1, :))

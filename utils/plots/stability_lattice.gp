@@ -2,7 +2,7 @@
 # utils/studies/stability.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/stability_lattice.gp     writes RESULT/stability_lattice.png
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set datafile nocolumnheaders
 set terminal pngcairo size 1300,560 font 'DejaVu Sans,11'

@@ -1,7 +1,7 @@
 # How extreme and stiff runs end, a row for each sweep, by utils/studies/stability.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/stability_scenes.gp     writes RESULT/stability_scenes.png from RESULT/cases.txt
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set datafile nocolumnheaders
 cases = dir.'/cases.txt'

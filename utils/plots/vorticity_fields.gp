@@ -4,7 +4,7 @@
 #
 # limit: largest |vorticity| of the colours, in the units of the run; the same for all. top: largest y shown. labels: one word each,
 # '_' for a blank.
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 if (!exists("labels")) labels = tables
 if (!exists("png")) png = 'vorticity_fields.png'

@@ -3,7 +3,7 @@
 # usage: gnuplot -e "tables='A.dat B.dat'; labels='A B'; png='FILE.png'" utils/plots/vorticity_spectra.gp
 #
 # labels: one word each, '_' for a blank; the tables' names without it.
-if (!exists("plots")) plots = 'utils/plots'
+if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 if (!exists("labels")) labels = tables
 if (!exists("png")) png = 'vorticity_spectra.png'

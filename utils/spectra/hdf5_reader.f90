@@ -2,11 +2,13 @@
 module hdf5_reader
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_ptr, c_size_t
    use errors, only: exit_files, failure
-   use hdf5, only: h5aclose_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f, h5eset_auto_f, &
-      h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, h5gn_members_f, h5open_f, h5sclose_f, &
-      h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5t_cset_utf8_f, h5t_native_double, h5t_string, h5tclose_f, &
-      h5tcopy_f, h5tset_cset_f, hid_t, hsize_t
+   use hdf5, only: h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, &
+      h5dopen_f, h5dread_f, h5eset_auto_f, h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, h5gn_members_f, &
+      h5open_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_npoints_f, &
+      h5t_cset_utf8_f, h5t_float_f, h5t_integer_f, h5t_native_double, h5t_string, h5t_string_f, h5tclose_f, h5tcopy_f, &
+      h5tget_class_f, h5tset_cset_f, hid_t, hsize_t
    use kinds, only: dp
+   use text, only: to_text
    implicit none
    private
 
@@ -14,6 +16,11 @@ module hdf5_reader
 
    integer, parameter :: name_length = 64   !! of an array
    character(*), parameter :: fields = '/VTKHDF/PointData'
+   character(*), parameter :: numbers(*) = [character(16) :: 'time', 'reference_length', 'spacing', 'sound_speed', 'density', &
+      'gravity']   !! attributes that are asked for, besides the title
+
+   character(*), parameter :: damaged = 'the file is damaged, or was not written by dynsph'
+   integer, parameter :: most_particles = 2*10**8   !! that dynsph writes
 
    !> A snapshot that is open for reading.
    type :: hdf5_reader_t
@@ -57,7 +64,56 @@ contains
       end if
       call h5gn_members_f(self%file, fields, members, status)
       if (status < 0) call problem%raise(exit_files, "'"//self%path//"' is not a snapshot of dynsph")
+      if (.not. problem%raised()) call check_attributes(self, problem)
    end subroutine open_snapshot
+
+   ! An attribute of a foreign or damaged file may have any extent and type; what is read here has room for one value.
+   subroutine check_attributes(self, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      type(failure), intent(inout) :: problem
+      logical :: fine
+      integer :: i
+
+      fine = holds_one(self, 'title', [h5t_string_f])
+      if (.not. fine) call problem%raise(exit_files, "attribute 'title' of '"//self%path//"' is not one text; "//damaged)
+      do i = 1, size(numbers)
+         fine = holds_one(self, trim(numbers(i)), [h5t_float_f, h5t_integer_f])
+         if (.not. fine .and. .not. problem%raised()) call problem%raise(exit_files, "attribute '"//trim(numbers(i))//"' of '" &
+                                                                         //self%path//"' is not one number; "//damaged)
+      end do
+   end subroutine check_attributes
+
+   ! Whether an attribute of the root group is missing, or is one value of one of some classes.
+   logical function holds_one(self, name, classes)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      integer, intent(in) :: classes(:)
+      integer(hid_t) :: attribute, space, kind
+      integer(hsize_t) :: points
+      integer :: class, status
+      logical :: there
+
+      holds_one = .true.
+      call h5aexists_f(self%file, name, there, status)
+      if (status >= 0 .and. .not. there) return
+      holds_one = .false.
+      call h5aopen_f(self%file, name, attribute, status)
+      if (status < 0) return
+      points = 0
+      class = -1
+      call h5aget_space_f(attribute, space, status)
+      if (status >= 0) then
+         call h5sget_simple_extent_npoints_f(space, points, status)
+         call h5sclose_f(space, status)
+      end if
+      call h5aget_type_f(attribute, kind, status)
+      if (status >= 0) then
+         call h5tget_class_f(kind, class, status)
+         call h5tclose_f(kind, status)
+      end if
+      call h5aclose_f(attribute, status)
+      holds_one = points == 1 .and. any(class == classes)
+   end function holds_one
 
    subroutine close_snapshot(self)
       class(hdf5_reader_t), intent(inout) :: self
@@ -88,16 +144,23 @@ contains
       type(failure), intent(inout) :: problem
 
       call read_array(self, '/VTKHDF/Points', values, problem)
+      if (problem%raised()) return
+      if (size(values, 1) /= 3) &
+         call problem%raise(exit_files, "the points of '"//self%path//"' have no three coordinates; "//damaged)
    end subroutine read_points
 
-   !> A particle array, (components, n). Raises exit_files if it is not there.
-   subroutine read_field(self, name, values, problem)
+   !> A particle array, (1 or 3, n). Raises exit_files if it is not there, or has other extents.
+   subroutine read_field(self, name, n, values, problem)
       class(hdf5_reader_t), intent(in) :: self
       character(*), intent(in) :: name
+      integer, intent(in) :: n   !! particles
       real(dp), allocatable, intent(out) :: values(:, :)
       type(failure), intent(inout) :: problem
 
       call read_array(self, fields//'/'//trim(name), values, problem)
+      if (problem%raised()) return
+      if (size(values, 2) /= n .or. all(size(values, 1) /= [1, 3])) call problem%raise(exit_files, "'"//trim(name)//"' of '" &
+         //self%path//"' is no array of one or three numbers for each of "//to_text(n)//' particles; '//damaged)
    end subroutine read_field
 
    subroutine read_array(self, name, values, problem)
@@ -115,17 +178,20 @@ contains
       if (status >= 0) then
          call h5dget_space_f(dataset, space, status)
          call h5sget_simple_extent_ndims_f(space, rank, status)
-         if (rank <= 2) call h5sget_simple_extent_dims_f(space, extent(:rank), largest(:rank), status)
+         status = -1
+         if (rank == 1 .or. rank == 2) call h5sget_simple_extent_dims_f(space, extent(:rank), largest(:rank), status)
          if (rank == 1) extent = [1_hsize_t, extent(1)]
-         allocate (values(extent(1), extent(2)))
-         status = 0
-         start = c_loc(values)
-         if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, start, status)
-         if (rank > 2) status = -1
+         ! More than a file can hold is damage, and no memory is asked for it.
+         if (extent(1) > 3 .or. extent(2) > most_particles) status = -1
+         if (status >= 0) then
+            allocate (values(extent(1), extent(2)))
+            start = c_loc(values)
+            if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, start, status)
+         end if
          call h5sclose_f(space, rank)
          call h5dclose_f(dataset, rank)
       end if
-      if (status < 0) call problem%raise(exit_files, "cannot read '"//name//"' of '"//self%path//"'")
+      if (status < 0) call problem%raise(exit_files, "cannot read '"//name//"' of '"//self%path//"'; "//damaged)
    end subroutine read_array
 
    !> A real attribute of the root group; 0 when it is missing.

@@ -38,7 +38,10 @@ contains
                                                                 "write it with &output fields = 'velocity', ...")
       end if
       if (.not. problem%raised()) call file%read_points(points, problem)
-      if (.not. problem%raised()) call file%read_field('velocity', velocity, problem)
+      if (.not. problem%raised()) call file%read_field('velocity', size(points, 2), velocity, problem)
+      if (.not. problem%raised()) then
+         if (size(velocity, 1) /= 3) call problem%raise(exit_files, "the velocity of '"//path//"' is no vector")
+      end if
       if (.not. problem%raised()) then
          snapshot%title = file%words('title')
          snapshot%time = file%number('time')
@@ -54,10 +57,10 @@ contains
          allocate (snapshot%volume(size(snapshot%x)))
          snapshot%volume = snapshot%spacing**2
          if (any(names == 'density')) then
-            call file%read_field('density', values, problem)
+            call file%read_field('density', size(points, 2), values, problem)
             if (.not. problem%raised()) snapshot%volume = snapshot%volume*density/values(1, :)
          else if (any(names == 'pressure') .and. sound_speed > 0) then
-            call file%read_field('pressure', values, problem)
+            call file%read_field('pressure', size(points, 2), values, problem)
             ! p = c0**2 (rho - rho0)
             if (.not. problem%raised()) snapshot%volume = snapshot%volume &
                /(1 + values(1, :)/(density*sound_speed**2))

@@ -3,7 +3,7 @@ module probe_signals
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: exit_files, exit_input, failure
    use kinds, only: dp
-   use text, only: short, to_text
+   use text, only: behind, short, to_text
    use text_table_reader, only: read_text_table, table_name_length, text_table_t
    implicit none
    private
@@ -92,7 +92,7 @@ contains
          end associate
          if (.not. is_taken(i)) left_out = left_out//', '//trim(table%names(i))
       end do
-      left_out = left_out(3:)
+      left_out = behind(left_out, len(', '))
       places = pack([(i, i=1, size(table%names))], is_taken)
       if (size(places) == 0) then
          call problem%raise(exit_input, table%path//': '//left_out//': the same all the time, or of another unit; --from and '// &

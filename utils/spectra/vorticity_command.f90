@@ -12,7 +12,7 @@ module vorticity_command
    use particle_snapshot, only: particle_snapshot_t, read_snapshot
    use plane_spectrum, only: add_spectrum, new_rings, power_above, rings_t
    use rectangles, only: largest_rectangle
-   use text, only: parse_real, quoted, short, to_text
+   use text, only: behind, parse_real, quoted, short, to_text
    use windows, only: window_names
    implicit none
    private
@@ -120,7 +120,7 @@ contains
          if (comma == 0) exit
          call parse_real(trim(adjustl(rest(:comma - 1))), rectangle(k), message)
          if (message /= '') exit
-         rest = rest(comma + 1:)
+         rest = behind(rest, comma)
       end do
       if (k <= 4 .or. rest /= '') then
          call problem%raise(exit_input, command//': --rectangle '//quoted(word)//': write four numbers x0,y0,x1,y1')
@@ -358,7 +358,7 @@ contains
       stem = path(slash + 1:)
       dot = index(stem, '.', back=.true.)
       if (dot > 1) stem = stem(:dot - 1)
-      if (index(stem, 'snapshot_') == 1) stem = stem(10:)
+      if (index(stem, 'snapshot_') == 1) stem = behind(stem, len('snapshot_'))
       name = path(:slash)//'vorticity_'//kind//'_'//stem//'.dat'
    end function output_name
 
