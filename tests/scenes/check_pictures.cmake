@@ -15,6 +15,7 @@ foreach(name IN LISTS PICTURES)
    file(REMOVE "${RESULT}/${name}")
 endforeach()
 set(ENV{DYNSPH_BIN} "${BIN}")
+set(ENV{GNUTERM} "no_such_terminal")   # the user's, for other work
 execute_process(COMMAND ${bash} ${DRAW} ${RESULT} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 if(NOT status EQUAL 0)
