@@ -16,8 +16,8 @@ module solution_results
       logical :: known = .false.   !! false where the run is too short to tell
    end type result_t
 
-   !> Times over which the loss of an impact is averaged, in c0 t/L; why these: docs/scenes.md.
-   real(dp), parameter, public :: impact_window(2) = [5.0_dp, 10.0_dp]
+   !> Times over which the loss of an impact is averaged, in c0 t/H with H along the motion; why these: docs/scenes.md.
+   real(dp), parameter, public :: impact_window(2) = [10.0_dp, 20.0_dp]
 
 contains
 
@@ -113,11 +113,12 @@ contains
       real(dp), intent(in) :: times(:), flow(:), mechanical(:)
       type(result_t) :: results(4)
       logical :: inside(size(times)), found
-      real(dp) :: loss(2)
+      real(dp) :: scaled(size(times)), loss(2)
 
-      inside = times*exact%c0/exact%extent(1) >= impact_window(1) .and. times*exact%c0/exact%extent(1) <= impact_window(2)
+      scaled = times*exact%c0/exact%extent(2)
+      inside = scaled >= impact_window(1) .and. scaled <= impact_window(2)
       ! The window counts when the run goes through all of it.
-      found = count(inside) >= 2 .and. last(times)*exact%c0/exact%extent(1) >= impact_window(2)*(1 - 1.0e-9_dp)
+      found = count(inside) >= 2 .and. last(scaled) >= impact_window(2)*(1 - 1.0e-9_dp)
       loss = 0
       if (found) loss = [time_mean(pack(times, inside), pack(flow, inside)), &
                          time_mean(pack(times, inside), pack(mechanical, inside))]

@@ -141,12 +141,17 @@ contains
       type(stability_t) :: stability
       real(dp) :: limit, delta
       character(:), allocatable :: what
+      logical :: damped   ! sound by diffusive terms alone, so that limits go together
 
       if (.not. all([notes%clean('time'), notes%clean('model'), notes%clean('fluid'), notes%clean('scene')])) return
+      damped = setup%time%integrator == 'rk2'
+      ! With a sound speed that is a guess, viscosity is no known alpha: when it is known.
+      if (damped .and. setup%fluid%find_reference_speed .and. setup%fluid%viscosity > 0.0_dp) return
       stability = stability_of(setup)
       associate (cfl => setup%time%cfl, model => setup%model)
          delta = constant_delta(setup)
          limit = stability%largest_cfl(delta, 0.0_dp)
+         if (damped) limit = stability%largest_cfl(delta, setup%alpha_total())
          if (.not. limit > 0.0_dp) then
             call notes%mistake(document%place_of('time', 1, 'integrator'), 'time', '&time integrator = ' &
                                //quoted(setup%time%integrator)//' needs a constant alpha or delta that damps sound ' &
@@ -154,9 +159,14 @@ contains
                                //short(delta)//': use rk4')
          else if (cfl > limit*(1.0_dp + slack)) then
             what = 'the limit of '//trim(setup%time%integrator)//' is '//rounded_down(limit)
-            if (limit < stability%sound) what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &
-                                                //rounded_down(stability%times_delta)//'/delta'
-            if (cfl <= stability%sound) what = what//'; lower cfl, or delta to '//rounded_down(stability%times_delta/cfl)
+            if (damped) then
+               what = what//' with alpha = '//short(setup%alpha_total())//' and delta = '//short(delta)
+            else if (limit < stability%sound) then
+               what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &
+                      //rounded_down(stability%times_delta)//'/delta'
+            end if
+            if (cfl <= stability%sound .and. .not. damped) &
+               what = what//'; lower cfl, or delta to '//rounded_down(stability%times_delta/cfl)
             call beyond_limit(setup, document%place_of('time', 1, 'cfl'), what, notes)
          else if (model%diffusion == 'dynamic' .and. model%limit*cfl > many_times*stability%times_delta) then
             call notes%warning(document%place_of('model', 1, 'limit'), '&model limit = '//to_text(model%limit) &
@@ -222,11 +232,9 @@ contains
       end if
       stability = stability_of(setup)
       room = stability%times_alpha/min(setup%time%cfl, stability%sound)
-      if (.not. stability%sound > 0.0_dp .or. alpha <= room*(1.0_dp + slack)) return
-      if (setup%time%integrator == 'rk2') then
-         ! Less alpha or coarser particles damp sound less, and so lower the limit of cfl that there is room for.
-         advice = 'lower cfl'
-      else if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
+      ! All limits of rk2 go together: check_stability.
+      if (setup%time%integrator == 'rk2' .or. alpha <= room*(1.0_dp + slack)) return
+      if (by_model >= room .or. .not. setup%fluid%viscosity > 0.0_dp) then
          place = document%place_of('model', 1, 'alpha')
          advice = 'lower alpha of &model to '//rounded_down(room)
       else
