@@ -24,6 +24,8 @@ module cadence
       procedure :: parse
       procedure :: is_due
       procedure :: is_never
+      procedure :: interval
+      procedure :: number => number_of_times
       procedure, private :: whole_intervals
    end type cadence_t
 
@@ -144,5 +146,23 @@ contains
 
       is_never = self%kind_of == kind_never
    end function is_never
+
+   !> The interval in time, endless where it is not one in time [s].
+   pure real(dp) function interval(self)
+      class(cadence_t), intent(in) :: self
+
+      interval = huge(1.0_dp)
+      if (self%kind_of == kind_time) interval = self%time_interval
+   end function interval
+
+   !> How often a run of so many steps to a time does it, its start and end included.
+   pure real(dp) function number_of_times(self, steps, end_time) result(number)
+      class(cadence_t), intent(in) :: self
+      real(dp), intent(in) :: steps, end_time
+
+      number = 0
+      if (self%kind_of == kind_steps) number = 1 + steps/self%step_interval
+      if (self%kind_of == kind_time) number = 1 + min(steps, end_time/self%time_interval)
+   end function number_of_times
 
 end module cadence

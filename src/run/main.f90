@@ -3,7 +3,7 @@ program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
    use command_line, only: command_line_t, parse_command_line, write_help
-   use cost, only: estimate_cost
+   use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
    use lanes, only: how_chosen, nl, root_name
    use model, only: model_t
@@ -12,7 +12,8 @@ program main
    use report, only: start_box
    use run_log, only: log_t
    use scene_input, only: load_scene, read_settings_text, write_markdown, write_shortest, write_template
-   use scene_run, only: run_into_directory
+   use room, only: check_room
+   use scene_run, only: output_directory, run_into_directory
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use text, only: to_text
@@ -57,6 +58,7 @@ contains
       type(settings_t) :: scene
       type(model_t) :: model
       type(log_t) :: screen
+      type(cost_t) :: costs
       character(:), allocatable :: content, warnings(:)
       integer :: k
 
@@ -79,9 +81,11 @@ contains
       end do
       model = set_up_model(scene)
       call limit_threads(count_particles(scene))
-      call start_box(screen, scene, model, estimate_cost(scene, model, count_particles(scene)))
+      costs = estimate_cost(scene, model, count_particles(scene))
+      call start_box(screen, scene, model, costs)
+      call check_room(scene, costs, output_directory(options), screen, problem)
       if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
-      call screen%line(options%scene//' is valid; nothing was run')
+      if (.not. problem%raised()) call screen%line(options%scene//' is valid; nothing was run')
    end subroutine run_scene
 
 end program main

@@ -15,6 +15,7 @@ module report
    use particles, only: features_t, particles_t
    use progress, only: duration_text
    use recorder, only: recorder_t
+   use room, only: output_bytes
    use run_log, only: log_t
    use scene_setup, only: needed_features
    use settings, only: settings_t
@@ -53,7 +54,7 @@ contains
                  //' bytes a particle'
       lines(9) = 'run time      about '//duration_text(costs%seconds)//' on '//threads_text() &
                  //' (at '//short(anint(costs%ns))//' ns per particle-step and core)'
-      lines(10) = 'output        '//output_text(scene)
+      lines(10) = 'output        '//output_text(scene)//', about '//short(output_bytes(scene, costs)/1.0e6_dp)//' MB'
       lines(11) = 'not written   '//not_written(scene)
       lines(12) = 'dynsph        '//version//' '//git_id//' '//build_type
       call log%box(trim(scene%scene%title), lines)

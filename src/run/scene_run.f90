@@ -15,7 +15,7 @@ module scene_run
    implicit none
    private
 
-   public :: run_into_directory
+   public :: output_directory, run_into_directory
 
 contains
 

@@ -1,6 +1,6 @@
 !> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
 module simulation
-   use cost, only: estimate_cost
+   use cost, only: cost_t, estimate_cost
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use images, only: bottom_wall
@@ -12,6 +12,7 @@ module simulation
    use recorder, only: recorder_t
    use report, only: closing_table, start_box, write_summary_file
    use result_directory, only: result_directory_t, summary_name
+   use room, only: check_room
    use run_log, only: log_t
    use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
@@ -41,6 +42,7 @@ contains
       type(log_t), intent(inout) :: log
       logical, intent(out) :: began             !! there are results to keep
       type(failure), intent(inout) :: problem   !! exit_numerics, exit_files
+      type(cost_t) :: costs
       type(particles_t) :: p
       type(neighbours_t) :: near
       type(step_t) :: run
@@ -53,7 +55,10 @@ contains
 
       began = .false.
       call limit_threads(count_particles(scene))
-      call start_box(log, scene, model, estimate_cost(scene, model, count_particles(scene)))
+      costs = estimate_cost(scene, model, count_particles(scene))
+      call start_box(log, scene, model, costs)
+      call check_room(scene, costs, directory%path, log, problem)
+      if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
       call set_up_particles(scene, model, p)
