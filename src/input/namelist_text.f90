@@ -282,20 +282,25 @@ contains
       character(:), allocatable, intent(inout) :: problem
 
       character :: quote
+      integer :: start
 
       quote = cursor%current()
       call cursor%advance()
       word = ''
+      start = cursor%at
       do
          if (scan(cursor%current(), newline//nothing) > 0) then
+            word = word//cursor%content(start:cursor%at - 1)
             problem = 'the text '//quote//trim(word)//' is not closed by '//quote//' on its line'
             return
          end if
          if (cursor%current() == quote) then
+            ! Of a doubled quote one is part of the text.
+            word = word//cursor%content(start:cursor%at - 1)
             call cursor%advance()
             if (cursor%current() /= quote) return
+            start = cursor%at
          end if
-         word = word//cursor%current()
          call cursor%advance()
       end do
    end subroutine scan_string
