@@ -37,7 +37,8 @@ contains
 
       bytes = 1024*number_after('/proc/meminfo', 'MemAvailable:')
       group = number_after('/sys/fs/cgroup/memory.max', '')
-      used = number_after('/sys/fs/cgroup/memory.current', '')
+      ! Not memory.current: that counts cached files, which give way.
+      used = number_after('/sys/fs/cgroup/memory.stat', 'anon ')
       if (group < endless .and. used < endless) bytes = min(bytes, group - used)
       ! Without a limit it is all ones, -1 here.
       if (c_getrlimit(address_space, limits) == 0 .and. limits(1) >= 0) bytes = min(bytes, real(limits(1), dp))

@@ -74,6 +74,8 @@ contains
       character(*), intent(in) :: why    !! it may be of few only
       character(:), allocatable :: words
 
+      words = ''
+      if (number == 0) return   ! the run ended before anything was counted
       words = ', more than half of that in '//to_text(number)//' of '//to_text(n)//' particles'
       if (number <= max(1, int(few_share*n))) words = words//' ('//why//')'
    end function sharers

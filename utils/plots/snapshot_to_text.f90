@@ -10,12 +10,9 @@
 program snapshot_to_text
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_files, exit_input, failure
-   use hdf5_reader, only: hdf5_reader_t, name_length
+   use hdf5_reader, only: hdf5_reader_t, name_length, numbers
    use kinds, only: dp
    implicit none
-
-   character(*), parameter :: numbers(*) = [character(16) :: 'time', 'reference_length', 'spacing', 'sound_speed', 'density', &
-      'gravity']
 
    type :: column_t
       character(name_length) :: name = ''

@@ -12,7 +12,7 @@ module hdf5_reader
    implicit none
    private
 
-   public :: hdf5_reader_t, name_length
+   public :: hdf5_reader_t, name_length, numbers
 
    integer, parameter :: name_length = 64   !! of an array
    character(*), parameter :: fields = '/VTKHDF/PointData'
