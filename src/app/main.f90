@@ -11,7 +11,8 @@ program main
    use program_arguments, only: take_arguments
    use report, only: start_box
    use run_log, only: log_t
-   use scene_input, only: load_scene, read_settings_text, write_markdown, write_shortest, write_template
+   use key_writer, only: shortest_input, tables, template
+   use scene_input, only: load_scene, read_settings_text
    use room, only: check_room
    use scene_run, only: output_directory, run_into_directory
    use scene_setup, only: count_particles, set_up_model
@@ -34,9 +35,9 @@ program main
    else if (options%version) then
       call write_version()
    else if (options%template) then
-      call write_template(output_unit)
+      write (output_unit, '(a)', advance='no') template()
    else if (options%keys) then
-      call write_markdown(output_unit)
+      write (output_unit, '(a)', advance='no') tables()
    else
       call run_scene(options, problem)
    end if
@@ -67,7 +68,7 @@ contains
       call read_settings_text(content, options%scene, options%overrides, scene, warnings, problem)
       if (problem%raised()) return
       if (options%shortest) then
-         call write_shortest(output_unit, scene)
+         write (output_unit, '(a)', advance='no') shortest_input(scene)
          return
       end if
       if (.not. options%check) then

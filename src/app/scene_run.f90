@@ -3,11 +3,12 @@ module scene_run
    use command_line, only: command_line_t
    use errors, only: failure
    use file_system, only: write_whole_file
+   use key_writer, only: complete_input
    use linear_stability, only: margins_t
    use preliminary, only: find_reference_speed
    use result_directory, only: input_name, log_name, result_directory_t
    use run_log, only: log_t
-   use scene_input, only: echo_text, read_settings_text
+   use scene_input, only: read_settings_text
    use scene_setup, only: set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
@@ -48,7 +49,7 @@ contains
          //short(margins%diffusion)//', viscous '//short(margins%viscous)//' of a lattice''s limits; warnings about cfl mean ' &
          //'those of dynsph')
       if (.not. problem%raised()) then
-         input_text = echo_text(scene)
+         input_text = complete_input(scene)
          call write_whole_file(directory%file(input_name), input_text, problem)
       end if
       if (problem%raised()) then

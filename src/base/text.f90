@@ -44,19 +44,35 @@ contains
       character(:), allocatable :: text_of
 
       character(40) :: buffer
-      character(16) :: form
-      real(dp) :: again
-      integer :: digit_count, status
+      logical :: exact
+      integer :: digit_count
 
-      do digit_count = 1, full_digits
-         write (form, '(a, i0, a)') '(es40.', digit_count - 1, 'e3)'
-         write (buffer, form) number
-         read (buffer, *, iostat=status) again
-         if (status /= 0) exit
-         if (transfer(again, 0_i8) == transfer(number, 0_i8)) exit
+      ! Most numbers have few digits; those that need more than 15 are not tried with fewer.
+      call write_digits(number, 15, buffer, exact)
+      do digit_count = merge(1, 16, exact), full_digits
+         call write_digits(number, digit_count, buffer, exact)
+         if (exact) exit
       end do
       text_of = plain_notation(trim(adjustl(buffer)))
+
    end function real_text
+
+   ! A real in so many digits, and whether that reads back as the same number. NaN and Infinity have no digits.
+   pure subroutine write_digits(number, digit_count, buffer, exact)
+      real(dp), intent(in) :: number
+      integer, intent(in) :: digit_count
+      character(*), intent(out) :: buffer
+      logical, intent(out) :: exact
+      character(16) :: form
+      real(dp) :: again
+      integer :: status
+
+      write (form, '(a, i0, a)') '(es40.', digit_count - 1, 'e3)'
+      write (buffer, form) number
+      read (buffer, *, iostat=status) again
+      exact = .true.
+      if (status == 0) exact = transfer(again, 0_i8) == transfer(number, 0_i8)
+   end subroutine write_digits
 
    !> A vector as text, its numbers parted by commas.
    pure function vector_text(numbers) result(text_of)
@@ -227,15 +243,20 @@ contains
    pure function quoted(word) result(in_quotes)
       character(*), intent(in) :: word
       character(:), allocatable :: in_quotes
+      character(2*len(word) + 2) :: buffer
+      integer :: i, length
 
-      integer :: i
-
-      in_quotes = "'"
+      buffer(1:1) = "'"
+      length = 1
       do i = 1, len_trim(word)
-         in_quotes = in_quotes//word(i:i)
-         if (word(i:i) == "'") in_quotes = in_quotes//"'"
+         if (word(i:i) == "'") then
+            length = length + 1
+            buffer(length:length) = "'"
+         end if
+         length = length + 1
+         buffer(length:length) = word(i:i)
       end do
-      in_quotes = in_quotes//"'"
+      in_quotes = buffer(:length)//"'"
    end function quoted
 
    !> What comes behind the first letters of a text. (`words = words(3:)` reads beyond its end with gfortran 12: it is made

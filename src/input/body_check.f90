@@ -1,10 +1,10 @@
 !> Checks the bodies: their shapes, where they lie, what they start with.
 module body_check
-   use findings, only: findings_t
+   use draft, only: draft_t
    use kinds, only: dp
-   use namelist_document, only: document_t
    use resting_fluid, only: carried, resting_force, resting_force_t
-   use settings, only: body_settings, choice_length, is_wall, settings_t, side_names
+   use settings, only: body_settings, choice_length, is_wall, side_names
+   use sorting, only: ascending
    use text, only: short, to_text
    implicit none
    private
@@ -17,21 +17,18 @@ module body_check
 contains
 
    !> Runs all checks of each &body.
-   subroutine check_bodies(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine check_bodies(draft)
+      type(draft_t), intent(inout) :: draft
       integer :: i
 
-      do i = 1, size(setup%bodies)
-         call check_size(document, setup, i, notes)
-         call check_turned(document, setup, i, notes)
-         call check_place(document, setup, i, notes)
-         call check_pressure(document, setup, i, notes)
-         call check_overlap(document, setup, i, notes)
+      do i = 1, size(draft%scene%bodies)
+         call check_size(draft, i)
+         call check_turned(draft, i)
+         call check_place(draft, i)
+         call check_pressure(draft, i)
       end do
-      call check_rest(document, setup, notes)
+      call check_overlaps(draft)
+      call check_rest(draft)
    end subroutine check_bodies
 
    !> The key that says where a body is.
@@ -44,168 +41,175 @@ contains
    end function place_key
 
    !> A body must have particles.
-   subroutine check_size(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_size(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
       real(dp) :: extent(2), margin
 
-      if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
-      associate (body => setup%bodies(number), dx => setup%spacing())
-         margin = slack*setup%scene%reference_length
+      if (.not. draft%clean('body scene')) return
+      associate (body => draft%scene%bodies(number), dx => draft%scene%spacing())
+         margin = slack*draft%scene%scene%reference_length
          extent = body%upper - body%lower
          if (body%shape == 'disc') then
             if (body%radius < dx - margin) then
-               call notes%mistake(document%place_of('body', number, 'radius'), 'body', '&body radius = ' &
+               call draft%mistake('body', 'radius', '&body radius = ' &
                                   //to_text(body%radius)//' is less than one particle, dx = '//short(dx) &
-                                  //': raise it or the resolution')
+                                  //': raise it or the resolution', number)
             end if
          else if (any(extent < dx - margin)) then
-            call notes%mistake(document%place_of('body', number, 'upper'), 'body', '&body is '//to_text(extent) &
-                               //' wide and high; it must be at least one particle, dx = '//short(dx)//', each way')
+            call draft%mistake('body', 'upper', '&body is '//to_text(extent) &
+                               //' wide and high; it must be at least one particle, dx = '//short(dx)//', each way', number)
          else if (any(abs(extent/dx - anint(extent/dx)) > 1.0e-6_dp)) then
-            call notes%warning(document%place_of('body', number, 'upper'), '&body is '//to_text(extent) &
-                               //' wide and high, no multiple of dx = '//short(dx)//': its particles are spread to fill it')
+            call draft%warning('body', 'upper', '&body is '//to_text(extent) &
+                               //' wide and high, no multiple of dx = '//short(dx)//': its particles are spread to fill it', number)
          end if
       end associate
    end subroutine check_size
 
    !> Whole cells of the turned lattice must fill the body without being stretched much.
-   subroutine check_turned(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_turned(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
       real(dp), parameter :: cell = sqrt(34.0_dp), largest_stretch = 1.25_dp   ! cell in dx: module body_particles
       real(dp) :: cells(2), stretch(2)
 
-      if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
-      associate (body => setup%bodies(number), dx => setup%spacing())
+      if (.not. draft%clean('body scene')) return
+      associate (body => draft%scene%bodies(number), dx => draft%scene%spacing())
          if (body%shape == 'disc' .or. body%lattice /= 'turned') return
          cells = (body%upper - body%lower)/(cell*dx)
          stretch = cells/max(1.0_dp, anint(cells))
          if (all(max(stretch, 1.0_dp/stretch) <= largest_stretch)) return
-         call notes%mistake(document%place_of('body', number, 'lattice'), 'body', "&body lattice = 'turned' consists of cells of " &
+         call draft%mistake('body', 'lattice', "&body lattice = 'turned' consists of cells of " &
                             //short(cell*dx)//' (5.83 dx), and '//to_text(body%upper - body%lower)//' is no multiple of that; ' &
-                            //"raise the resolution or choose lattice = 'aligned'")
+                            //"raise the resolution or choose lattice = 'aligned'", number)
       end associate
    end subroutine check_turned
 
    !> A body must stay behind walls and between periodic sides.
-   subroutine check_place(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_place(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
       character(choice_length) :: kinds_there(4)
       character(:), allocatable :: which
       real(dp) :: beyond(4)
       integer :: side
 
-      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain'))) return
-      associate (body => setup%bodies(number), domain => setup%domain)
-         if (spacing(maxval(abs([body%lower, body%upper]))) > coarsest*setup%spacing()) then
-            call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body from '//to_text(body%lower) &
+      if (.not. draft%clean('body scene domain')) return
+      associate (body => draft%scene%bodies(number), domain => draft%scene%domain)
+         if (spacing(maxval(abs([body%lower, body%upper]))) > coarsest*draft%scene%spacing()) then
+            call draft%mistake('body', place_key(body), '&body from '//to_text(body%lower) &
                                //' to '//to_text(body%upper)//' is so far from 0 that coordinates are ' &
                                //short(spacing(maxval(abs([body%lower, body%upper]))))//' apart, too coarse for dx = ' &
-                               //short(setup%spacing())//'; move the scene towards the origin')
+                               //short(draft%scene%spacing())//'; move the scene towards the origin', number)
             return
          end if
-         kinds_there = setup%side_kinds()
+         kinds_there = draft%scene%side_kinds()
          beyond([1, 3]) = domain%lower - body%lower
          beyond([2, 4]) = body%upper - domain%upper
-         side = findloc(kinds_there /= 'open' .and. beyond > slack*setup%scene%reference_length, .true., 1)
+         side = findloc(kinds_there /= 'open' .and. beyond > slack*draft%scene%scene%reference_length, .true., 1)
          if (side == 0) return
          which = trim(side_names(side))//' wall'
          if (.not. is_wall(kinds_there(side))) which = 'periodic '//trim(side_names(side))//' side'
-         call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body from '//to_text(body%lower) &
+         call draft%mistake('body', place_key(body), '&body from '//to_text(body%lower) &
                             //' to '//to_text(body%upper)//' lies beyond the '//which//' of &domain; move the body or the ' &
-                            //which(index(which, ' ', back=.true.) + 1:))
+                            //which(index(which, ' ', back=.true.) + 1:), number)
       end associate
    end subroutine check_place
 
    !> The series of the incompressible pressure holds for a column in a corner with one free side.
-   subroutine check_pressure(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_pressure(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
       character(*), parameter :: what = "&body pressure = 'incompressible' needs "
       character(*), parameter :: instead = "; choose 'hydrostatic' or 'zero'"
       real(dp) :: margin
       character(:), allocatable :: need
 
-      if (setup%bodies(number)%pressure /= 'incompressible') return
-      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid') .and. &
-                 notes%clean('force'))) return
-      associate (body => setup%bodies(number), domain => setup%domain)
-         margin = slack*setup%scene%reference_length
+      if (draft%scene%bodies(number)%pressure /= 'incompressible') return
+      if (.not. draft%clean('body scene domain fluid force')) return
+      associate (body => draft%scene%bodies(number), domain => draft%scene%domain)
+         margin = slack*draft%scene%scene%reference_length
          need = ''
-         if (count(setup%leans(body)) /= 1) need = 'one side at a wall and the other free'
+         if (count(draft%scene%leans(body)) /= 1) need = 'one side at a wall and the other free'
          if (.not. is_wall(domain%bottom) .or. abs(body%lower(2) - domain%lower(2)) > margin) then
             need = 'a body that stands on the floor'
          end if
          if (body%shape /= 'rectangle') need = "shape = 'rectangle'"
-         if (.not. setup%fluid%gravity > setup%force%acceleration(2)) need = 'gravity above 0, or acceleration downwards'
+         if (.not. draft%scene%fluid%gravity > draft%scene%force%acceleration(2)) &
+            need = 'gravity above 0, or acceleration downwards'
       end associate
-      if (need /= '') call notes%mistake(document%place_of('body', number, 'pressure'), 'body', what//need//instead)
+      if (need /= '') call draft%mistake('body', 'pressure', what//need//instead, number)
    end subroutine check_pressure
 
    !> Hydrostatic pressure is that of fluid that rests: what falls, or is pushed aside, starts with a bang.
-   subroutine check_rest(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine check_rest(draft)
+      type(draft_t), intent(inout) :: draft
       type(resting_force_t) :: force
       logical, allocatable :: falls(:)
       integer :: i
 
-      if (.not. (notes%clean('body') .and. notes%clean('scene') .and. notes%clean('domain') .and. notes%clean('fluid') .and. &
-                 notes%clean('force'))) return
-      force = resting_force(setup)
-      falls = .not. carried(setup, force) .and. setup%bodies%pressure == 'hydrostatic'
-      do i = 1, size(setup%bodies)
-         if (falls(i)) call notes%warning(document%place_of('body', i, 'pressure'), '&body number '//to_text(i)//' lies on no ' &
+      if (.not. draft%clean('body scene domain fluid force')) return
+      force = resting_force(draft%scene)
+      falls = .not. carried(draft%scene, force) .and. draft%scene%bodies%pressure == 'hydrostatic'
+      do i = 1, size(draft%scene%bodies)
+         if (falls(i)) call draft%warning('body', 'pressure', '&body number '//to_text(i)//' lies on no ' &
                                           //"wall and on no fluid that does: with pressure = 'hydrostatic' it starts as if it " &
-                                          //"stood, and bursts; with 'zero' it falls freely")
+                                          //"stood, and bursts; with 'zero' it falls freely", i)
       end do
-      if (force%left_over > 0.0_dp .and. any(setup%bodies%pressure == 'hydrostatic')) &
-         call notes%warning(document%place_of('force', 1, 'acceleration'), "&body pressure = 'hydrostatic' balances the larger " &
+      if (force%left_over > 0.0_dp .and. any(draft%scene%bodies%pressure == 'hydrostatic')) &
+         call draft%warning('force', 'acceleration', "&body pressure = 'hydrostatic' balances the larger " &
                             //'component of gravity and acceleration; the other one, '//short(force%left_over) &
                             //', sets the fluid in motion')
    end subroutine check_rest
 
-   !> Bodies must not lie on each other.
-   subroutine check_overlap(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
-      integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
-      real(dp), allocatable :: depth(:)
+   !> Bodies must not lie on each other. The first one that does is told of all before it that it overlaps.
+   subroutine check_overlaps(draft)
+      type(draft_t), intent(inout) :: draft
       character(:), allocatable :: words
-      integer :: other
+      real(dp), allocatable :: depth(:)
+      real(dp) :: margin
+      integer :: number, other
 
-      if (.not. (notes%clean('body') .and. notes%clean('scene'))) return
+      if (.not. draft%clean('body scene')) return
       words = ''
-      do other = 1, number - 1
-         associate (body => setup%bodies(number))
-            depth = overlap(body, setup%bodies(other))
-            if (all(depth > slack*setup%scene%reference_length)) then
-               words = short(depth(1))
-               if (size(depth) == 2) words = words//', '//short(depth(2))
-               call notes%mistake(document%place_of('body', number, place_key(body)), 'body', '&body number ' &
-                                  //to_text(number)//' overlaps number '//to_text(other)//' by '//words//'; move one of them')
-            end if
-         end associate
+      margin = slack*draft%scene%scene%reference_length
+      associate (bodies => draft%scene%bodies)
+         number = first_overlapping(bodies, margin)
+         if (number > size(bodies)) return
+         do other = 1, number - 1
+            depth = overlap(bodies(number), bodies(other))
+            if (.not. all(depth > margin)) cycle
+            words = short(depth(1))
+            if (size(depth) == 2) words = words//', '//short(depth(2))
+            call draft%mistake('body', place_key(bodies(number)), '&body number '//to_text(number)//' overlaps number ' &
+                               //to_text(other)//' by '//words//'; move one of them', number)
+         end do
+      end associate
+   end subroutine check_overlaps
+
+   !> The first body that overlaps one before it; one more than there are if none does.
+   pure integer function first_overlapping(bodies, margin) result(first)
+      type(body_settings), intent(in) :: bodies(:)
+      real(dp), intent(in) :: margin        !! overlaps up to this do not count [m]
+      real(dp) :: starts(size(bodies))
+      integer :: order(size(bodies)), axis, i, k
+
+      ! Along the axis on which fewer lie side by side, only bodies that begin before one ends can overlap it.
+      axis = 1
+      if (sum(bodies%upper(1) - bodies%lower(1))*(maxval(bodies%upper(2)) - minval(bodies%lower(2))) > &
+          sum(bodies%upper(2) - bodies%lower(2))*(maxval(bodies%upper(1)) - minval(bodies%lower(1)))) axis = 2
+      starts = bodies%lower(axis)
+      order = ascending(starts)
+      first = size(bodies) + 1
+      do i = 1, size(bodies)
+         if (order(i) >= first) cycle
+         do k = i + 1, size(bodies)
+            if (bodies(order(k))%lower(axis) > bodies(order(i))%upper(axis)) exit
+            if (order(k) >= first) cycle
+            if (all(overlap(bodies(order(i)), bodies(order(k))) > margin)) first = max(order(i), order(k))
+         end do
       end do
-   end subroutine check_overlap
+   end function first_overlapping
 
    !> How deep two bodies lie in each other; not above 0 in some direction if they do not.
    pure function overlap(one, other) result(depth)
@@ -226,7 +230,6 @@ contains
    !> How deep a disc lies in a rectangle.
    pure real(dp) function depth_in_rectangle(disc, rectangle) result(depth)
       type(body_settings), intent(in) :: disc, rectangle
-
       real(dp) :: nearest(2)
 
       nearest = min(max(disc%centre, rectangle%lower), rectangle%upper)

@@ -1,8 +1,7 @@
 !> Works out what follows from the keys: boxes around discs, pressure without weight, the sound speed, the viscosity.
 module derived_settings
-   use findings, only: findings_t
+   use draft, only: draft_t
    use kinds, only: dp
-   use namelist_document, only: document_t
    use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t
    use text, only: to_text
@@ -14,31 +13,28 @@ module derived_settings
 contains
 
    !> Sets all that is worked out. What cannot be is a mistake.
-   subroutine resolve_settings(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(inout) :: setup
-      type(findings_t), intent(inout) :: notes
+   subroutine resolve_settings(draft)
+      type(draft_t), intent(inout) :: draft
 
-      call enclose_discs(setup%bodies)
-      call resolve_pressures(document, setup, notes)
-      call resolve_sound_speed(document, setup, notes)
-      call resolve_viscosity(document, setup, notes)
+      call enclose_discs(draft%scene%bodies)
+      call resolve_pressures(draft)
+      call resolve_sound_speed(draft)
+      call resolve_viscosity(draft)
    end subroutine resolve_settings
 
    !> Takes the speed that a preliminary run has found for &fluid reference_speed = 'auto'.
-   pure subroutine set_reference_speed(setup, speed)
-      type(settings_t), intent(inout) :: setup   !! mach is above 0
+   pure subroutine set_reference_speed(scene, speed)
+      type(settings_t), intent(inout) :: scene   !! mach is above 0
       real(dp), intent(in) :: speed              !! U_ref > 0 [m/s]
 
-      setup%fluid%reference_speed = speed
-      setup%fluid%sound_speed = speed/setup%fluid%mach
-      setup%fluid%find_reference_speed = .false.
+      scene%fluid%reference_speed = speed
+      scene%fluid%sound_speed = speed/scene%fluid%mach
+      scene%fluid%find_reference_speed = .false.
    end subroutine set_reference_speed
 
    !> Sets `lower` and `upper` of discs.
    pure subroutine enclose_discs(bodies)
       type(body_settings), intent(inout) :: bodies(:)
-
       integer :: i
 
       do i = 1, size(bodies)
@@ -49,46 +45,41 @@ contains
    end subroutine enclose_discs
 
    !> Without a force that it balances, hydrostatic pressure is none.
-   subroutine resolve_pressures(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(inout) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine resolve_pressures(draft)
+      type(draft_t), intent(inout) :: draft
       integer :: i
       type(resting_force_t) :: force
 
-      if (.not. (notes%clean('fluid') .and. notes%clean('force') .and. notes%clean('domain'))) return
-      force = resting_force(setup)
+      if (.not. draft%clean('fluid force domain')) return
+      force = resting_force(draft%scene)
       if (force%size > 0.0_dp) return
-      do i = 1, size(setup%bodies)
-         if (setup%bodies(i)%pressure /= 'hydrostatic') cycle
-         setup%bodies(i)%pressure = 'zero'
-         if (document%given('body', i, 'pressure')) call notes%warning(document%place_of('body', i, 'pressure'), &
-                                                                       "&body pressure = 'hydrostatic' has no effect: gravity is 0")
+      do i = 1, size(draft%scene%bodies)
+         if (draft%scene%bodies(i)%pressure /= 'hydrostatic') cycle
+         draft%scene%bodies(i)%pressure = 'zero'
+         if (draft%given('body', 'pressure', i)) &
+            call draft%warning('body', 'pressure', "&body pressure = 'hydrostatic' has no effect: gravity is 0", i)
       end do
    end subroutine resolve_pressures
 
    !> Works out the sound speed from Mach number and reference speed unless it is given.
-   subroutine resolve_sound_speed(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(inout) :: setup
-      type(findings_t), intent(inout) :: notes
+   subroutine resolve_sound_speed(draft)
+      type(draft_t), intent(inout) :: draft
 
-      if (.not. notes%clean('fluid')) return
-      associate (fluid => setup%fluid)
+      if (.not. draft%clean('fluid')) return
+      associate (fluid => draft%scene%fluid)
          if (fluid%find_reference_speed) then
-            call guess_sound_speed(document, setup, notes)
+            call guess_sound_speed(draft)
          else if (fluid%sound_speed > 0.0_dp) then
             if (fluid%mach > 0.0_dp) then
-               call notes%warning(document%place_of('fluid', 1, 'mach'), '&fluid mach = '//to_text(fluid%mach) &
+               call draft%warning('fluid', 'mach', '&fluid mach = '//to_text(fluid%mach) &
                                   //' has no effect: sound_speed is given; leave one of them out')
                fluid%mach = 0.0_dp
             end if
          else if (.not. fluid%mach > 0.0_dp) then
-            call notes%mistake(document%place_of('fluid', 1, 'mach'), 'fluid', &
+            call draft%mistake('fluid', 'mach', &
                                '&fluid needs mach and reference_speed, or sound_speed')
          else if (.not. fluid%reference_speed > 0.0_dp) then
-            call notes%mistake(document%place_of('fluid', 1, 'reference_speed'), 'fluid', &
+            call draft%mistake('fluid', 'reference_speed', &
                                '&fluid mach needs a reference_speed above 0 to give the sound speed')
          else
             fluid%sound_speed = fluid%reference_speed/fluid%mach
@@ -97,27 +88,24 @@ contains
    end subroutine resolve_sound_speed
 
    !> Sound speed for the checks, and for the coarse run that will find reference_speed.
-   subroutine guess_sound_speed(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(inout) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine guess_sound_speed(draft)
+      type(draft_t), intent(inout) :: draft
       character(*), parameter :: auto = "&fluid reference_speed = 'auto' "
       real(dp) :: speed
 
-      associate (fluid => setup%fluid)
+      associate (fluid => draft%scene%fluid)
          if (fluid%sound_speed > 0.0_dp) then
-            call notes%mistake(document%place_of('fluid', 1, 'sound_speed'), 'fluid', &
+            call draft%mistake('fluid', 'sound_speed', &
                                auto//'finds the sound speed, and sound_speed is given; leave one of them out')
          else if (.not. fluid%mach > 0.0_dp) then
-            call notes%mistake(document%place_of('fluid', 1, 'reference_speed'), 'fluid', &
+            call draft%mistake('fluid', 'reference_speed', &
                                auto//'needs mach, the Mach number to have: mach = 0.1')
          else
-            speed = guessed_speed(setup)
-            if (.not. speed > 0.0_dp .and. notes%any_mistake()) then
+            speed = guessed_speed(draft%scene)
+            if (.not. speed > 0.0_dp .and. draft%notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
-               call notes%mistake(document%place_of('fluid', 1, 'reference_speed'), 'fluid', auto//'has nothing to find: no ' &
+               call draft%mistake('fluid', 'reference_speed', auto//'has nothing to find: no ' &
                                   //'gravity, force, velocity or moving wall; give one, or sound_speed in the place of mach')
             end if
             fluid%sound_speed = speed/fluid%mach
@@ -126,46 +114,44 @@ contains
    end subroutine guess_sound_speed
 
    !> Speed that the fluid may reach: from the start, by falling, by the other forces, at moving walls [m/s].
-   pure real(dp) function guessed_speed(setup) result(speed)
-      type(settings_t), intent(in) :: setup
-
+   pure real(dp) function guessed_speed(scene) result(speed)
+      type(settings_t), intent(in) :: scene
       real(dp) :: floor_at, top
       integer :: i
 
-      associate (domain => setup%domain, force => setup%force, bodies => setup%bodies)
+      associate (domain => scene%domain, force => scene%force, bodies => scene%bodies)
          speed = maxval(abs(domain%wall_speeds))
          speed = max(speed, sqrt(2*dot_product(abs(force%acceleration), abs(domain%upper - domain%lower))))
          if (size(bodies) == 0) return
          top = maxval(bodies%upper(2))
          floor_at = minval(bodies%lower(2))
          if (is_wall(domain%bottom)) floor_at = domain%lower(2)
-         speed = max(speed, sqrt(2*setup%fluid%gravity*max(0.0_dp, top - floor_at)))
+         speed = max(speed, sqrt(2*scene%fluid%gravity*max(0.0_dp, top - floor_at)))
          do i = 1, size(bodies)
-            speed = max(speed, start_speed(setup, bodies(i)))
+            speed = max(speed, start_speed(scene, bodies(i)))
          end do
       end associate
    end function guessed_speed
 
    !> Largest speed that a body starts with or the central field soon gives it [m/s].
-   pure real(dp) function start_speed(setup, body) result(speed)
-      type(settings_t), intent(in) :: setup
+   pure real(dp) function start_speed(scene, body) result(speed)
+      type(settings_t), intent(in) :: scene
       type(body_settings), intent(in) :: body   !! its box is known
-
       real(dp) :: farthest
 
-      associate (centre => setup%force%centre, amplitude => abs(setup%exact%amplitude))
-         speed = setup%force%central_rate*reach(body, centre)
+      associate (centre => scene%force%centre, amplitude => abs(scene%exact%amplitude))
+         speed = scene%force%central_rate*reach(body, centre)
          if (body%flow == 'uniform') then
             speed = max(speed, norm2(body%velocity))
          else
             farthest = reach(body, (body%lower + body%upper)/2)
-            select case (setup%exact%solution)
+            select case (scene%exact%solution)
             case ('oscillating_drop', 'rotating_square')
                speed = max(speed, amplitude*farthest)
             case ('taylor_green')
                speed = max(speed, amplitude)
             case ('acoustic_wave')
-               speed = max(speed, amplitude*setup%fluid%sound_speed)
+               speed = max(speed, amplitude*scene%fluid%sound_speed)
             end select
          end if
       end associate
@@ -185,18 +171,15 @@ contains
 
    !> Works out the viscosity from the Reynolds number if that is given.
    !! Source: Sec. 5.1 of the paper refers Re to U = sqrt(g d) and the depth d; without gravity we take reference_speed.
-   subroutine resolve_viscosity(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(inout) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine resolve_viscosity(draft)
+      type(draft_t), intent(inout) :: draft
       real(dp) :: speed
       character(:), allocatable :: problem
 
-      if (.not. (notes%clean('fluid') .and. notes%clean('scene'))) return
-      if (.not. setup%fluid%reynolds > 0.0_dp) return
+      if (.not. draft%clean('fluid scene')) return
+      if (.not. draft%scene%fluid%reynolds > 0.0_dp) return
       problem = ''
-      associate (fluid => setup%fluid, d => setup%scene%reference_length)
+      associate (fluid => draft%scene%fluid, d => draft%scene%scene%reference_length)
          speed = fluid%reference_speed
          if (fluid%gravity > 0.0_dp) speed = sqrt(fluid%gravity*d)
          if (fluid%viscosity > 0.0_dp) then
@@ -209,7 +192,7 @@ contains
          else
             fluid%viscosity = fluid%density*speed*d/fluid%reynolds
          end if
-         if (problem /= '') call notes%mistake(document%place_of('fluid', 1, 'reynolds'), 'fluid', '&fluid reynolds = ' &
+         if (problem /= '') call draft%mistake('fluid', 'reynolds', '&fluid reynolds = ' &
                                                //to_text(fluid%reynolds)//problem)
       end associate
    end subroutine resolve_viscosity

@@ -4,7 +4,7 @@
 module exact_check
    use findings, only: findings_t
    use kinds, only: dp
-   use namelist_document, only: document_t
+   use document, only: document_t
    use scene_needs, only: need_full_box, need_no_weight, need_one_body, need_open_sides, need_width, needs_t, &
                           same, slack
    use scene_keys, only: with_waves

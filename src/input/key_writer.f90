@@ -1,247 +1,230 @@
-!> Prints the input keys: as a complete input, as the shortest one, as a template to fill in, or as tables.
+!> Writes the input keys: as a complete input, as the shortest one, as a template to fill in, or as tables.
 module key_writer
-   use key_visitor, only: key_visitor_t, range_t
-   use kinds, only: dp
-   use text, only: quoted, to_text
+   use growing_text, only: growing_text_t
+   use key_table, only: key_t, keys_t
+   use resting_fluid, only: resting_force, resting_force_t
+   use scene_keys, only: count_groups, groups, known_group_t, list_keys
+   use settings, only: fluid_settings, settings_t
+   use text, only: to_text
    implicit none
    private
 
-   public :: key_writer_t
-
-   integer, parameter, public :: as_echo = 1       !! values only
-   integer, parameter, public :: as_template = 2   !! values with unit, range and meaning
-   integer, parameter, public :: as_tables = 3     !! one Markdown table a group
-   integer, parameter, public :: as_defaults = 4   !! nothing: the values are kept for `as_shortest`
-   integer, parameter, public :: as_shortest = 5   !! what differs from these defaults, visited in the same order
+   public :: complete_input, shortest_input, template, tables
 
    integer, parameter :: value_width = 28          ! columns kept for 'key = value'
    integer, parameter :: widest = 100              ! columns of the shortest input
-   integer, parameter :: longest_value = 512       ! as text
-
-   !> Writes what it visits to a unit.
-   type, extends(key_visitor_t) :: key_writer_t
-      integer :: unit = 0
-      integer :: style = as_echo
-      character(:), allocatable :: remark   !! what the template says above the next group
-      character(longest_value), allocatable, private :: defaults(:)   ! of all keys, in the order of the visits
-      integer, private :: visits = 0                                  ! of keys, with the scene's values
-      character(:), allocatable, private :: line   ! of the shortest input, not written yet
-   contains
-      procedure :: announce
-      procedure :: enter
-      procedure :: leave
-      procedure :: real_key
-      procedure :: real_or_word_key
-      procedure :: vector_key
-      procedure :: integer_key
-      procedure :: text_key
-      procedure :: choice_key
-      procedure :: list_key
-      procedure, private :: write_key
-      procedure, private :: add_if_other
-   end type key_writer_t
 
 contains
 
-   !> Heads a group's table, or keeps its meaning for the template.
-   subroutine announce(self, name, meaning, required, repeatable)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, meaning
-      logical, intent(in) :: required, repeatable
+   !> The complete input of a run; reading it gives the same settings bit by bit.
+   function complete_input(scene) result(content)
+      type(settings_t), intent(in) :: scene
+      character(:), allocatable :: content
+      type(settings_t), target :: copy
+      type(growing_text_t) :: lines
+      type(keys_t) :: keys
+      integer :: g, i, number
 
-      character(:), allocatable :: how_many
+      call lines%add_line('! The complete input of this run: all keys that have an effect, with the defaults it used.')
+      call tell_derived(scene%fluid, lines)
+      copy = as_given(scene)
+      do g = 1, size(groups)
+         do number = 1, count_groups(copy, groups(g)%name)
+            call list_keys(copy, groups(g)%name, number, keys)
+            call lines%add_line('')
+            call lines%add_line('&'//trim(groups(g)%name))
+            do i = 1, keys%n
+               associate (key => keys%items(i))
+                  if (key%active) call lines%add_line('   '//key%name//' = '//key%value_text())
+               end associate
+            end do
+            call lines%add_line('/')
+         end do
+      end do
+      content = lines%text()
+   end function complete_input
 
-      if (required .and. repeatable) then
-         how_many = 'Required; may be repeated.'
-      else if (required) then
-         how_many = 'Required.'
-      else if (repeatable) then
-         how_many = 'Optional; may be repeated.'
-      else
-         how_many = 'Optional.'
+   ! Says what is worked out from other keys.
+   subroutine tell_derived(fluid, lines)
+      type(fluid_settings), intent(in) :: fluid
+      type(growing_text_t), intent(inout) :: lines
+
+      if (fluid%find_reference_speed) then
+         call lines%add_line('! sound_speed follows from mach once a coarse run has found reference_speed.')
+      else if (fluid%mach > 0) then
+         call lines%add_line('! sound_speed = '//to_text(fluid%sound_speed)//' follows from mach and reference_speed.')
       end if
-      self%remark = meaning//' '//how_many
-      if (self%style /= as_tables) return
-      write (self%unit, '(a)') '', '## &'//name, '', self%remark, '', &
-         '| key | default | unit | range or choices | meaning |', '| --- | --- | --- | --- | --- |'
-   end subroutine announce
+      if (fluid%reynolds > 0) call lines%add_line('! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.')
+   end subroutine tell_derived
 
-   !> Opens a group.
-   subroutine enter(self, name, number)
-      class(key_writer_t), intent(inout) :: self
+   ! Without what is worked out from other keys: both at once would contradict each other when they are read.
+   pure type(settings_t) function as_given(scene)
+      type(settings_t), intent(in) :: scene
+
+      as_given = scene
+      associate (fluid => as_given%fluid)
+         if (fluid%find_reference_speed .or. fluid%mach > 0) fluid%sound_speed = 0
+         if (fluid%reynolds > 0) fluid%viscosity = 0
+      end associate
+   end function as_given
+
+   !> The scene in as few lines as it takes; reading it gives the same complete input.
+   function shortest_input(scene) result(content)
+      type(settings_t), intent(in) :: scene
+      character(:), allocatable :: content
+      type(settings_t), target :: copy, defaults
+      type(growing_text_t) :: lines
+      type(keys_t) :: keys, default_keys
+      type(resting_force_t) :: force
+      integer :: g, number
+
+      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
+      copy = as_given(scene)
+      ! Hydrostatic pressure, the default, is none where nothing presses.
+      force = resting_force(scene)
+      do number = 1, size(copy%bodies)
+         associate (body => copy%bodies(number))
+            if (body%pressure == 'zero' .and. .not. force%size > 0) body%pressure = defaults%bodies(1)%pressure
+         end associate
+      end do
+      do g = 1, size(groups)
+         call list_keys(defaults, groups(g)%name, 1, default_keys)
+         do number = 1, count_groups(copy, groups(g)%name)
+            call list_keys(copy, groups(g)%name, number, keys)
+            call add_short_group(trim(groups(g)%name), keys, default_keys, lines)
+         end do
+      end do
+      content = lines%text()
+   end function shortest_input
+
+   ! A group, if any of its keys must be given or is not the default.
+   subroutine add_short_group(name, keys, default_keys, lines)
       character(*), intent(in) :: name
-      integer, intent(in) :: number
-
-      call self%always()
-      self%line = '&'//name
-      if (self%style >= as_tables) return
-      write (self%unit, '(a)') ''
-      if (self%style == as_template .and. number == 1) write (self%unit, '(a)') '! '//self%remark
-      write (self%unit, '(a)') '&'//name
-   end subroutine enter
-
-   !> Closes a group.
-   subroutine leave(self)
-      class(key_writer_t), intent(inout) :: self
-
-      if (self%style < as_tables) write (self%unit, '(a)') '/'
-      if (self%style == as_shortest .and. index(self%line, ' = ') > 0) write (self%unit, '(a)') self%line//' /'
-   end subroutine leave
-
-   !> Writes a real number.
-   subroutine real_key(self, name, value, range, unit, meaning, required)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, unit, meaning
-      real(dp), intent(inout) :: value
-      type(range_t), intent(in) :: range
-      logical, intent(in), optional :: required
-
-      call self%write_key(name, to_text(value), unit, range%in_words(), meaning, required)
-   end subroutine real_key
-
-   !> Writes a real number, or the word in its place.
-   subroutine real_or_word_key(self, name, value, word, chosen, range, unit, meaning)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, unit, meaning
-      real(dp), intent(inout) :: value
-      character(*), intent(in) :: word
-      logical, intent(inout) :: chosen
-      type(range_t), intent(in) :: range
-
-      character(:), allocatable :: shown
-
-      shown = to_text(value)
-      if (chosen) shown = quoted(word)
-      call self%write_key(name, shown, unit, range%in_words()//', or '//quoted(word), meaning)
-   end subroutine real_or_word_key
-
-   !> Writes a few real numbers.
-   subroutine vector_key(self, name, value, range, unit, meaning, required)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, unit, meaning
-      real(dp), intent(inout) :: value(:)
-      type(range_t), intent(in) :: range
-      logical, intent(in), optional :: required
-
-      call self%write_key(name, to_text(value), unit, range%in_words(), meaning, required)
-   end subroutine vector_key
-
-   !> Writes a whole number.
-   subroutine integer_key(self, name, value, range, unit, meaning, required)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, unit, meaning
-      integer, intent(inout) :: value
-      type(range_t), intent(in) :: range
-      logical, intent(in), optional :: required
-
-      call self%write_key(name, to_text(value), unit, range%in_words(), meaning, required)
-   end subroutine integer_key
-
-   !> Writes free text.
-   subroutine text_key(self, name, value, meaning, required)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, meaning
-      character(*), intent(inout) :: value
-      logical, intent(in), optional :: required
-
-      call self%write_key(name, quoted(value), '', 'text, up to '//to_text(len(value))//' letters', meaning, required)
-   end subroutine text_key
-
-   !> Writes one word out of some.
-   subroutine choice_key(self, name, value, choices, meaning)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, meaning
-      character(*), intent(inout) :: value
-      character(*), intent(in) :: choices(:)
-
-      call self%write_key(name, quoted(value), '', words_text(choices), meaning)
-   end subroutine choice_key
-
-   !> Writes some words out of some.
-   subroutine list_key(self, name, values, used, choices, meaning)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, meaning
-      character(*), intent(inout) :: values(:)
-      integer, intent(inout) :: used
-      character(*), intent(in) :: choices(:)
-
-      call self%write_key(name, words_text(values(:used)), '', 'some of '//words_text(choices), meaning)
-   end subroutine list_key
-
-   !> Words in quotes, parted by commas.
-   pure function words_text(words) result(line)
-      character(*), intent(in) :: words(:)
-      character(:), allocatable :: line
-
+      type(keys_t), intent(in) :: keys, default_keys
+      type(growing_text_t), intent(inout) :: lines
+      character(:), allocatable :: line, phrase
       integer :: i
 
-      line = ''
-      do i = 1, size(words)
-         if (i > 1) line = line//', '
-         line = line//quoted(words(i))
+      phrase = ''
+      line = '&'//name
+      do i = 1, keys%n
+         associate (key => keys%items(i))
+            phrase = key%name//' = '//key%value_text()
+            if (.not. key%active) cycle
+            if (.not. key%required .and. key%value_text() == default_keys%items(i)%value_text()) cycle
+         end associate
+         if (index(line, ' = ') > 0) line = line//','
+         if (len(line//phrase) + 3 > widest) then
+            call lines%add_line(line)
+            line = '  '
+         end if
+         line = line//' '//phrase
       end do
-   end function words_text
+      if (index(line, ' = ') > 0) call lines%add_line(line//' /')
+   end subroutine add_short_group
 
-   !> Writes one key in the wanted style.
-   subroutine write_key(self, name, value, unit, range, meaning, required)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, value
-      character(*), intent(in) :: unit, range, meaning   !! unit '': the key is no number
-      logical, intent(in), optional :: required
+   !> A namelist of all keys with default, unit, range and meaning.
+   function template() result(content)
+      character(:), allocatable :: content
+      type(settings_t), target :: defaults
+      type(growing_text_t) :: lines
+      type(keys_t) :: keys
+      integer :: g, i
 
-      character(:), allocatable :: shown, column
-      logical :: must
+      call lines%add_line('! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.')
+      call lines%add_line('! Keys behind a ! have an effect only with another choice, which is named.')
+      call lines%add_line('! Units are SI or any other consistent set, such as d = g = density = 1.')
+      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
+      do g = 1, size(groups)
+         call list_keys(defaults, groups(g)%name, 1, keys)
+         call lines%add_line('')
+         call lines%add_line('! '//described(groups(g)))
+         call lines%add_line('&'//trim(groups(g)%name))
+         do i = 1, keys%n
+            call lines%add_line('   ! '//keys%items(i)%meaning)
+            call lines%add_line('   '//template_line(keys%items(i)))
+         end do
+         call lines%add_line('/')
+      end do
+      content = lines%text()
+   end function template
 
-      must = .false.
-      if (present(required)) must = required
-      select case (self%style)
-      case (as_echo)
-         if (self%active) write (self%unit, '(3x, 3a)') name, ' = ', value
-      case (as_template)
-         shown = name//' = '//value
-         if (must) shown = name//' ='   ! left empty: what is not filled in is refused
-         if (.not. self%active) shown = '! '//shown
-         if (len(shown) < value_width) shown = shown//repeat(' ', value_width - len(shown))
-         column = range
-         if (must) column = 'required; '//column
-         if (unit /= '') column = '['//unit//'] '//column
-         if (self%condition /= '') column = column//'; only with '//self%condition
-         write (self%unit, '(3x, a)') '! '//meaning, shown//'   ! '//column
-      case (as_defaults)
-         if (.not. allocated(self%defaults)) allocate (self%defaults(0))
-         self%defaults = [character(longest_value) :: self%defaults, value]
-      case (as_shortest)
-         call self%add_if_other(name, value, must)
-      case default
-         column = '`'//value//'`'
-         if (must) column = '**required**'
-         shown = escaped(meaning)
-         if (self%condition /= '') shown = shown//' Only with '//self%condition//'.'
-         write (self%unit, '(13a)') '| `', name, '` | ', column, ' | ', unit, ' | ', range, ' | ', shown, ' |'
-      end select
-   end subroutine write_key
+   ! `key = default   ! [unit] range`; a key that must be given is left empty: what is not filled in is refused.
+   function template_line(key) result(line)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: line
 
-   !> Adds a key to the group's line if it must be given or its value is not the default.
-   subroutine add_if_other(self, name, value, must)
-      class(key_writer_t), intent(inout) :: self
-      character(*), intent(in) :: name, value
-      logical, intent(in) :: must
+      line = key%name//' ='
+      if (.not. key%required) line = line//' '//key%value_text()
+      if (.not. key%active) line = '! '//line
+      if (len(line) < value_width) line = line//repeat(' ', value_width - len(line))
+      line = line//'   ! '
+      if (key%unit /= '') line = line//'['//key%unit//'] '
+      if (key%required) line = line//'required; '
+      line = line//key%range_text()
+      if (key%condition /= '') line = line//'; only with '//key%condition
+   end function template_line
 
-      self%visits = self%visits + 1
-      if (.not. self%active .or. (value == self%defaults(self%visits) .and. .not. must)) return
-      if (index(self%line, ' = ') > 0) self%line = self%line//','
-      if (len(self%line//name//value) + 6 > widest) then
-         write (self%unit, '(a)') self%line
-         self%line = '  '
-      end if
-      self%line = self%line//' '//name//' = '//value
-   end subroutine add_if_other
+   !> The list of all keys as Markdown, docs/input.md.
+   function tables() result(content)
+      character(:), allocatable :: content
+      type(settings_t), target :: defaults
+      type(growing_text_t) :: lines
+      type(keys_t) :: keys
+      integer :: g, i
 
-   !> Text for a cell of a Markdown table, where a bar would end the cell.
+      call lines%add_line('# Input keys')
+      call lines%add_line('')
+      call lines%add_line('This page is written by the program itself: `dynsph --keys > docs/input.md`.')
+      call lines%add_line('')
+      call lines%add_line('A scene is a namelist file; `dynsph --template` prints one to fill in, `dynsph --shortest FILE.nml` ' &
+                          //'what of a scene')
+      call lines%add_line('differs from the defaults. Units are SI or any other consistent set, such as d = g = density = 1, in ' &
+                          //'which times are')
+      call lines%add_line('t sqrt(g/d). `--set group.key=value` on the command line goes before the file; `body(2).key` means ' &
+                          //'the second &body.')
+      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
+      do g = 1, size(groups)
+         call list_keys(defaults, groups(g)%name, 1, keys)
+         call lines%add_line('')
+         call lines%add_line('## &'//trim(groups(g)%name))
+         call lines%add_line('')
+         call lines%add_line(described(groups(g)))
+         call lines%add_line('')
+         call lines%add_line('| key | default | unit | range or choices | meaning |')
+         call lines%add_line('| --- | --- | --- | --- | --- |')
+         do i = 1, keys%n
+            call lines%add_line(table_row(keys%items(i)))
+         end do
+      end do
+      content = lines%text()
+   end function tables
+
+   function table_row(key) result(row)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: row
+
+      row = '`'//key%value_text()//'`'
+      if (key%required) row = '**required**'
+      row = '| `'//key%name//'` | '//row//' | '//key%unit//' | '//key%range_text()//' | '//escaped(key%meaning)
+      if (key%condition /= '') row = row//' Only with '//key%condition//'.'
+      row = row//' |'
+   end function table_row
+
+   ! What a group is, and how many there may be.
+   pure function described(group) result(words)
+      type(known_group_t), intent(in) :: group
+      character(:), allocatable :: words
+
+      words = trim(group%meaning)//trim(merge(' Required', ' Optional', group%required))
+      if (group%repeatable) words = words//'; may be repeated'
+      words = words//'.'
+   end function described
+
+   ! Text for a cell of a Markdown table, where a bar would end the cell.
    pure function escaped(line) result(cell)
       character(*), intent(in) :: line
       character(:), allocatable :: cell
-
       integer :: i
 
       cell = ''

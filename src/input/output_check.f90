@@ -1,10 +1,10 @@
 !> Checks what is asked for as output: cadences, fields, probes, gauges.
 module output_check
    use cadence, only: cadence_t
-   use findings, only: findings_t
+   use draft, only: draft_t
    use kinds, only: dp
-   use namelist_document, only: document_t
-   use settings, only: is_wall, name_length, settings_t
+   use name_table, only: name_table_t
+   use settings, only: is_wall
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -16,57 +16,49 @@ module output_check
 contains
 
    !> Runs all checks of &output, &probe and &gauge.
-   subroutine check_output(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
-      type(findings_t), intent(inout) :: notes
-
-      character(name_length) :: names(size(setup%probes) + size(setup%gauges))   ! of the columns
+   subroutine check_output(draft)
+      type(draft_t), intent(inout) :: draft
+      type(name_table_t) :: columns   ! of probes.dat so far
       integer :: i
 
-      call check_cadence(document, 'energy', setup%output%energy, notes)
-      call check_cadence(document, 'probes', setup%output%probes, notes)
-      call check_cadence(document, 'errors', setup%output%errors, notes)
-      call check_cadence(document, 'snapshots', setup%output%snapshots, notes)
-      call check_fields(document, setup, notes)
-      do i = 1, size(setup%probes)
-         names(i) = setup%probes(i)%name
-         call check_probe_place(document, setup, i, notes)
-         call check_name(document, 'probe', i, names(:i), notes)
+      associate (output => draft%scene%output)
+         call check_cadence(draft, 'energy', output%energy)
+         call check_cadence(draft, 'probes', output%probes)
+         call check_cadence(draft, 'errors', output%errors)
+         call check_cadence(draft, 'snapshots', output%snapshots)
+      end associate
+      call check_fields(draft)
+      do i = 1, size(draft%scene%probes)
+         call check_probe_place(draft, i)
+         call check_name(draft, 'probe', i, trim(draft%scene%probes(i)%name), columns)
       end do
-      do i = 1, size(setup%gauges)
-         names(size(setup%probes) + i) = setup%gauges(i)%name
-         call check_gauge_place(document, setup, i, notes)
-         call check_name(document, 'gauge', i, names(:size(setup%probes) + i), notes)
+      do i = 1, size(draft%scene%gauges)
+         call check_gauge_place(draft, i)
+         call check_name(draft, 'gauge', i, trim(draft%scene%gauges(i)%name), columns)
       end do
    end subroutine check_output
 
    !> A cadence must be readable.
-   subroutine check_cadence(document, key, phrase, notes)
-      type(document_t), intent(in) :: document
+   subroutine check_cadence(draft, key, phrase)
+      type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: key, phrase
-      type(findings_t), intent(inout) :: notes
-
       type(cadence_t) :: parsed
       character(:), allocatable :: message
 
       call parsed%parse(phrase, message)
-      if (message /= '') call notes%mistake(document%place_of('output', 1, key), 'output', '&output '//key//': '//message)
+      if (message /= '') call draft%mistake('output', key, '&output '//key//': '//message)
    end subroutine check_cadence
 
    !> alpha_i and delta_i are kept for the dynamic model alone.
-   subroutine check_fields(document, setup, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
-      type(findings_t), intent(inout) :: notes
-
+   subroutine check_fields(draft)
+      type(draft_t), intent(inout) :: draft
       integer :: i
 
-      if (.not. (notes%clean('output') .and. notes%clean('model')) .or. setup%model%diffusion == 'dynamic') return
-      do i = 1, setup%output%n_fields
-         associate (field => setup%output%fields(i))
+      if (.not. draft%clean('output model') .or. draft%scene%model%diffusion == 'dynamic') return
+      do i = 1, draft%scene%output%n_fields
+         associate (field => draft%scene%output%fields(i))
             if (field /= 'alpha' .and. field /= 'delta') cycle
-            call notes%mistake(document%place_of('output', 1, 'fields'), 'output', '&output fields: '//quoted(field) &
+            call draft%mistake('output', 'fields', '&output fields: '//quoted(field) &
                                //' is the same everywhere with the constant model and not written; leave it out, ' &
                                //"or set &model diffusion = 'dynamic'")
          end associate
@@ -74,30 +66,27 @@ contains
    end subroutine check_fields
 
    !> A probe must lie at a wall, all of it within the box.
-   subroutine check_probe_place(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_probe_place(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
-
       real(dp) :: distance(4), margin
       logical :: walls(4)
       character(:), allocatable :: problem
       integer :: along
 
-      if (.not. (notes%clean('probe') .and. notes%clean('scene') .and. notes%clean('domain'))) return
-      associate (probe => setup%probes(number), domain => setup%domain)
+      if (.not. draft%clean('probe scene domain')) return
+      associate (probe => draft%scene%probes(number), domain => draft%scene%domain)
          walls = is_wall([domain%left, domain%bottom, domain%right, domain%top])
          distance = [probe%position - domain%lower, domain%upper - probe%position]
-         margin = slack*setup%scene%reference_length
+         margin = slack*draft%scene%scene%reference_length
          problem = ''
          if (.not. any(walls)) then
             problem = 'needs a wall, and all sides of &domain are open'
          else if (any(distance < -margin)) then
             problem = 'lies outside the box'
-         else if (minval(distance, walls) > setup%spacing()/2 + margin) then
+         else if (minval(distance, walls) > draft%scene%spacing()/2 + margin) then
             problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall, more than dx/2 = ' &
-                      //short(setup%spacing()/2)//'; put it on the wall'
+                      //short(draft%scene%spacing()/2)//'; put it on the wall'
          else
             along = 2
             if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1
@@ -106,58 +95,53 @@ contains
                   //'half; there a diameter or length of at most '//short(room)//' m fits'
             end associate
          end if
-         if (problem /= '') call notes%mistake(document%place_of('probe', number, 'position'), 'probe', &
-                                               '&probe position = '//to_text(probe%position)//' '//problem)
+         if (problem /= '') &
+            call draft%mistake('probe', 'position', '&probe position = '//to_text(probe%position)//' '//problem, number)
          if (probe%diameter > 0 .and. probe%length > 0) &
-            call notes%mistake(document%place_of('probe', number, 'length'), 'probe', &
-                               '&probe has a diameter and a length; it is either a disc or a segment: give one of them')
+            call draft%mistake('probe', 'length', '&probe has a diameter and a length; it is either a disc or a segment: ' &
+                               //'give one of them', number)
       end associate
    end subroutine check_probe_place
 
    !> A gauge must pass through the box.
-   subroutine check_gauge_place(document, setup, number, notes)
-      type(document_t), intent(in) :: document
-      type(settings_t), intent(in) :: setup
+   subroutine check_gauge_place(draft, number)
+      type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      type(findings_t), intent(inout) :: notes
       integer :: across
 
-      if (.not. (notes%clean('gauge') .and. notes%clean('scene') .and. notes%clean('domain'))) return
-      associate (gauge => setup%gauges(number), domain => setup%domain)
+      if (.not. draft%clean('gauge scene domain')) return
+      associate (gauge => draft%scene%gauges(number), domain => draft%scene%domain)
          across = merge(2, 1, gauge%along == 'x')
          if (gauge%at >= domain%lower(across) .and. gauge%at <= domain%upper(across)) return
-         call notes%mistake(document%place_of('gauge', number, 'at'), 'gauge', '&gauge at = '//to_text(gauge%at) &
+         call draft%mistake('gauge', 'at', '&gauge at = '//to_text(gauge%at) &
                             //' lies outside the box; a line along '//trim(gauge%along)//' is between ' &
-                            //to_text(domain%lower(across))//' and '//to_text(domain%upper(across)))
+                            //to_text(domain%lower(across))//' and '//to_text(domain%upper(across)), number)
       end associate
    end subroutine check_gauge_place
 
    !> The name of a probe or gauge heads a column: it must be one word and its own.
-   subroutine check_name(document, group, number, names, notes)
-      type(document_t), intent(in) :: document
+   subroutine check_name(draft, group, number, name, columns)
+      type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: group
       integer, intent(in) :: number
-      character(*), intent(in) :: names(:)   !! of the columns so far, the last one its own
-      type(findings_t), intent(inout) :: notes
-
+      character(*), intent(in) :: name
+      type(name_table_t), intent(inout) :: columns   !! those before it; on return with its own
       character(*), parameter :: allowed = &
                                  'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-'
       character(:), allocatable :: problem
 
-      if (.not. notes%clean(group)) return
       problem = ''
-      associate (name => names(size(names)))
-         if (verify(trim(name), allowed) > 0) then
-            problem = ' may have letters, digits, _ and - only'
-         else if (name == 'time' .or. name == 'time_scaled') then
-            problem = ' is the name of another column of probes.dat; choose another'
-         else if (findloc(names, name, dim=1) < size(names)) then
-            problem = ' is the name of an earlier probe'
-            if (group == 'gauge') problem = problem//' or gauge'
-         end if
-         if (problem /= '') call notes%mistake(document%place_of(group, number, 'name'), group, &
-                                               '&'//group//' name = '//quoted(name)//problem)
-      end associate
+      if (verify(name, allowed) > 0) then
+         problem = ' may have letters, digits, _ and - only'
+      else if (name == 'time' .or. name == 'time_scaled') then
+         problem = ' is the name of another column of probes.dat; choose another'
+      else if (columns%find(name) > 0) then
+         problem = ' is the name of an earlier probe'
+         if (group == 'gauge') problem = problem//' or gauge'
+      end if
+      call columns%put(name, number)
+      if (problem /= '' .and. draft%clean(group)) &
+         call draft%mistake(group, 'name', '&'//group//' name = '//quoted(name)//problem, number)
    end subroutine check_name
 
 end module output_check

@@ -2,6 +2,7 @@
 module resting_fluid
    use kinds, only: dp
    use settings, only: body_settings, choice_length, is_wall, settings_t
+   use sorting, only: ascending
    implicit none
    private
 
@@ -18,12 +19,12 @@ module resting_fluid
 contains
 
    !> Along periodic sides nothing holds the fluid: no pressure balances that part of the force.
-   pure type(resting_force_t) function resting_force(setup) result(force)
-      type(settings_t), intent(in) :: setup
+   pure type(resting_force_t) function resting_force(scene) result(force)
+      type(settings_t), intent(in) :: scene
       real(dp) :: total(2)
 
-      total = setup%force%acceleration - [0.0_dp, setup%fluid%gravity]
-      where ([setup%domain%left, setup%domain%bottom] == 'periodic') total = 0
+      total = scene%force%acceleration - [0.0_dp, scene%fluid%gravity]
+      where ([scene%domain%left, scene%domain%bottom] == 'periodic') total = 0
       if (abs(total(1)) > abs(total(2))) force%axis = 1
       if (total(force%axis) > 0) force%down = 1
       force%size = abs(total(force%axis))
@@ -31,39 +32,39 @@ contains
    end function resting_force
 
    !> Fluid above a place in a body [m], through all bodies of hydrostatic pressure that lie on each other there.
-   pure real(dp) function depth_of(setup, force, number, place) result(depth)
-      type(settings_t), intent(in) :: setup
+   pure real(dp) function depth_of(scene, force, number, place) result(depth)
+      type(settings_t), intent(in) :: scene
       type(resting_force_t), intent(in) :: force
       integer, intent(in) :: number      !! of the body
       real(dp), intent(in) :: place(2)
-      logical :: passed(size(setup%bodies))
+      logical :: passed(size(scene%bodies))
       real(dp) :: top
       integer :: k
 
-      passed = setup%bodies%pressure /= 'hydrostatic'
+      passed = scene%bodies%pressure /= 'hydrostatic'
       k = number
       do
          passed(k) = .true.
-         top = face(setup%bodies(k), force, place, up=.true.)
-         k = body_at(setup, force, place, top, passed)
+         top = face(scene%bodies(k), force, place, up=.true.)
+         k = body_at(scene, force, place, top, passed)
          if (k == 0) exit
       end do
       depth = (place(force%axis) - top)*force%down
    end function depth_of
 
    ! The body not passed yet that begins at a height above a place; 0 if there is none.
-   pure integer function body_at(setup, force, place, height, passed) result(number)
-      type(settings_t), intent(in) :: setup
+   pure integer function body_at(scene, force, place, height, passed) result(number)
+      type(settings_t), intent(in) :: scene
       type(resting_force_t), intent(in) :: force
       real(dp), intent(in) :: place(2)
       real(dp), intent(in) :: height      !! along the axis
       logical, intent(in) :: passed(:)
 
-      do number = 1, size(setup%bodies)
+      do number = 1, size(scene%bodies)
          if (passed(number)) cycle
-         associate (body => setup%bodies(number), across => 3 - force%axis)
+         associate (body => scene%bodies(number), across => 3 - force%axis)
             if (place(across) < body%lower(across) .or. place(across) > body%upper(across)) cycle
-            if (touch(setup, face(body, force, place, up=.false.), height)) return
+            if (touch(scene, face(body, force, place, up=.false.), height)) return
          end associate
       end do
       number = 0
@@ -86,59 +87,64 @@ contains
    end function face
 
    ! Fluid is connected where no particle fits between.
-   pure logical function touch(setup, one, other)
-      type(settings_t), intent(in) :: setup
+   pure logical function touch(scene, one, other)
+      type(settings_t), intent(in) :: scene
       real(dp), intent(in) :: one, other
 
-      touch = abs(one - other) < setup%spacing()/2
+      touch = abs(one - other) < scene%spacing()/2
    end function touch
 
    !> Whether each body stands on a wall, or on other fluid that does. Discs count as the squares around them.
-   pure function carried(setup, force) result(held)
-      type(settings_t), intent(in) :: setup
+   pure function carried(scene, force) result(held)
+      type(settings_t), intent(in) :: scene   !! bodies are a particle high at least
       type(resting_force_t), intent(in) :: force
-      logical :: held(size(setup%bodies))
-      real(dp) :: foot, wall
-      integer :: i, k
-      logical :: is_held(size(setup%bodies)), bounded
+      logical :: held(size(scene%bodies))
+      real(dp) :: foot(size(scene%bodies)), top(size(scene%bodies)), wall   ! heights, upwards against the force
+      integer :: by_foot(size(scene%bodies)), by_top(size(scene%bodies)), i, k, n
       character(choice_length) :: kinds_there(4)
+      real(dp) :: tops(size(scene%bodies))   ! from the lowest up
+      logical :: bounded
 
-      associate (bodies => setup%bodies, axis => force%axis, domain => setup%domain)
-         wall = merge(domain%upper(axis), domain%lower(axis), force%down > 0)
-         kinds_there = setup%side_kinds()
-         bounded = is_wall(kinds_there(2*axis - merge(0, 1, force%down > 0)))
+      associate (bodies => scene%bodies, axis => force%axis, across => 3 - force%axis, up => -force%down)
+         kinds_there = scene%side_kinds()
+         bounded = is_wall(kinds_there(2*axis - merge(1, 0, up > 0)))
+         wall = min(up*scene%domain%lower(axis), up*scene%domain%upper(axis))
+         foot = min(up*bodies%lower(axis), up*bodies%upper(axis))
+         top = max(up*bodies%lower(axis), up*bodies%upper(axis))
+         by_foot = ascending(foot)
+         by_top = ascending(top)
+         tops = top(by_top)
          held = .false.
-         ! A stack of n bodies is known after n rounds.
-         do k = 1, size(bodies)
-            is_held = held
-            do i = 1, size(bodies)
-               foot = merge(bodies(i)%upper(axis), bodies(i)%lower(axis), force%down > 0)
-               is_held(i) = held(i) .or. (bounded .and. touch(setup, foot, wall)) .or. any(held .and. bodies_below(i, foot))
+         ! What a body stands on has a lower foot: it is known by then.
+         do n = 1, size(bodies)
+            i = by_foot(n)
+            held(i) = bounded .and. touch(scene, foot(i), wall)
+            do k = first_above(tops, foot(i) - scene%spacing()), size(bodies)
+               if (held(i) .or. tops(k) > foot(i) + scene%spacing()) exit
+               associate (one => bodies(i), below => bodies(by_top(k)))
+                  held(i) = held(by_top(k)) .and. touch(scene, tops(k), foot(i)) .and. &
+                            one%lower(across) < below%upper(across) .and. one%upper(across) > below%lower(across)
+               end associate
             end do
-            if (all(is_held .eqv. held)) return
-            held = is_held
          end do
       end associate
-
-   contains
-
-      ! Bodies whose upper face lies at the foot of one, below part of it.
-      pure function bodies_below(i, foot) result(below)
-         integer, intent(in) :: i
-         real(dp), intent(in) :: foot
-         logical :: below(size(setup%bodies))
-         real(dp) :: top
-         integer :: j
-
-         associate (bodies => setup%bodies, across => 3 - force%axis)
-            do j = 1, size(bodies)
-               top = merge(bodies(j)%lower(force%axis), bodies(j)%upper(force%axis), force%down > 0)
-               below(j) = j /= i .and. touch(setup, top, foot) .and. bodies(i)%lower(across) < bodies(j)%upper(across) &
-                          .and. bodies(i)%upper(across) > bodies(j)%lower(across)
-            end do
-         end associate
-      end function bodies_below
-
    end function carried
+
+   ! The first of ascending values that is above a bound.
+   pure integer function first_above(values, bound) result(first)
+      real(dp), intent(in) :: values(:), bound
+      integer :: last, middle
+
+      first = 1
+      last = size(values) + 1
+      do while (first < last)
+         middle = (first + last)/2
+         if (values(middle) > bound) then
+            last = middle
+         else
+            first = middle + 1
+         end if
+      end do
+   end function first_above
 
 end module resting_fluid

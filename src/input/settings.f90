@@ -16,6 +16,10 @@ module settings
    integer, parameter, public :: name_length = 32      !! characters of names and cadences
    integer, parameter, public :: choice_length = 16    !! characters of a choice
 
+   !> The namelist groups in the order in which they are written.
+   character(6), parameter, public :: group_names(11) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'body', 'model', &
+                                                         'exact', 'time', 'output', 'probe', 'gauge']
+
    !> The sides of the box in the order of `side_kinds`.
    character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
 

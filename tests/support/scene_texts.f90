@@ -1,12 +1,13 @@
 !> Scenes as text for tests of the input: the least one, changed line by line, and what is said about it.
 module scene_texts
    use errors, only: exit_input, failure
-   use scene_input, only: read_settings_text, write_echo
+   use key_writer, only: complete_input
+   use scene_input, only: read_settings_text
    use settings, only: settings_t
    implicit none
    private
 
-   public :: scene_with, exchanged, settings_of, refusal, refusal_of, override_refusal, warned, first_warning, echo_of, content_of
+   public :: scene_with, exchanged, settings_of, refusal, refusal_of, override_refusal, warned, first_warning, echo_of
 
    character, parameter, public :: newline = achar(10)
    character(1), parameter, public :: no_overrides(0) = [character(1) ::]
@@ -97,34 +98,12 @@ contains
       if (problem%raised()) message = problem%message
    end function override_refusal
 
-   !> A unit's whole content.
-   function content_of(unit) result(content)
-      integer, intent(in) :: unit
-      character(:), allocatable :: content
-
-      character(400) :: line
-      integer :: status
-
-      content = ''
-      rewind (unit)
-      do
-         read (unit, '(a)', iostat=status) line
-         if (status /= 0) exit
-         content = content//trim(line)//newline
-      end do
-   end function content_of
-
    !> The complete input of given settings, as text.
    function echo_of(setup) result(content)
       type(settings_t), intent(in) :: setup
       character(:), allocatable :: content
 
-      integer :: unit
-
-      open (newunit=unit, status='scratch')
-      call write_echo(unit, setup)
-      content = content_of(unit)
-      close (unit)
+      content = complete_input(setup)
    end function echo_of
 
    !> Settings of a text that is right.

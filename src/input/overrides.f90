@@ -1,7 +1,7 @@
 !> Puts `--set group.key=value` of the command line in the place of what a file says.
-module override_keys
+module overrides
+   use document, only: document_t, entry_t, group_t
    use findings, only: findings_t
-   use namelist_document, only: document_t, entry_t, group_t
    use text, only: lower_case, parse_integer, quoted, to_text
    implicit none
    private
@@ -17,19 +17,16 @@ contains
       character(*), intent(in) :: phrase             !! 'group.key=value'
       type(document_t), intent(inout) :: document
       type(findings_t), intent(inout) :: notes
-
       type(entry_t) :: item
       type(group_t) :: new_group
-      character(:), allocatable :: group, name, problem
-      integer :: at, number
+      character(:), allocatable :: group, key, name, problem
+      integer :: at, i, number
 
-      group = ''
-      problem = ''
-      item%place%text = 'command line: --set '//trim(phrase)
-      call split_phrase(phrase, group, name, item%raw, problem)
-      if (problem == '') call split_index(name, item%key, item%element, problem)
+      item%place%option = 'command line: --set '//trim(phrase)
+      call split_phrase(phrase, group, key, item%option, problem)
+      if (problem == '') call split_index(key, item%key, item%element, problem)
       if (problem == '') call split_index(group, name, number, problem)
-      if (problem == '') call find_group(document, name, number, at, problem)
+      if (problem == '') call find_group(document, notes%file, name, number, at, problem)
       if (problem /= '') then
          call notes%mistake(item%place, '', problem)
          return
@@ -38,23 +35,28 @@ contains
          new_group%name = name
          new_group%place = item%place
          call document%add_group(new_group)
-         at = document%group_count()
+         at = document%n
       end if
-      call replace_entry(document%groups(at), item)
+      associate (there => document%groups(at))
+         do i = there%n, 1, -1
+            if (there%entries(i)%key /= item%key) cycle
+            if (item%element == 0 .or. there%entries(i)%element == item%element) call there%drop_entry(i)
+         end do
+         call there%add_entry(item)
+      end associate
    end subroutine apply_override
 
-   !> Parts 'group.key=value' at its first '=' and the first '.' before it.
-   pure subroutine split_phrase(phrase, group, key, raw, problem)
+   ! Parts 'group.key=value' at its first '=' and the first '.' before it.
+   pure subroutine split_phrase(phrase, group, key, value, problem)
       character(*), intent(in) :: phrase
-      character(:), allocatable, intent(out) :: group, key, raw
-      character(:), allocatable, intent(out) :: problem      !! '' if it has this form
-
+      character(:), allocatable, intent(out) :: group, key, value
+      character(:), allocatable, intent(out) :: problem      ! '' if it has this form
       integer :: dot, equals
 
       problem = ''
       group = ''
       key = ''
-      raw = ''
+      value = ''
       equals = index(phrase, '=')
       dot = index(phrase(:max(equals - 1, 0)), '.')
       if (equals == 0) then
@@ -63,28 +65,26 @@ contains
          problem = "there is no '.' between group and key"//wanted
       else if (phrase(equals + 1:) == '') then
          problem = "there is no value behind the '='"//wanted
+      else
+         group = trim(adjustl(lower_case(phrase(:dot - 1))))
+         key = trim(adjustl(lower_case(phrase(dot + 1:equals - 1))))
+         value = trim(phrase(equals + 1:))
       end if
-      if (problem /= '') return
-      group = trim(adjustl(lower_case(phrase(:dot - 1))))
-      key = trim(adjustl(lower_case(phrase(dot + 1:equals - 1))))
-      raw = trim(phrase(equals + 1:))
    end subroutine split_phrase
 
-   !> Parts 'name(2)' into 'name' and 2, 'name' into 'name' and 0.
+   ! Parts 'name(2)' into 'name' and 2, 'name' into 'name' and 0.
    pure subroutine split_index(phrase, name, number, problem)
       character(*), intent(in) :: phrase
       character(:), allocatable, intent(out) :: name
       integer, intent(out) :: number
       character(:), allocatable, intent(out) :: problem
-
       integer :: open_at
 
       problem = ''
       number = 0
       open_at = index(phrase, '(')
-      if (open_at == 0) then
-         name = phrase
-      else
+      name = phrase
+      if (open_at > 0) then
          name = trim(phrase(:open_at - 1))
          if (phrase(len(phrase):) /= ')') then
             problem = quoted(phrase)//' has no closing bracket'
@@ -96,14 +96,13 @@ contains
       if (problem == '' .and. name == '') problem = 'a name is missing'//wanted
    end subroutine split_index
 
-   !> Finds the group that is meant; 0 if the file has none of that name yet.
-   pure subroutine find_group(document, name, number, at, problem)
+   ! The group that is meant; 0 if the file has none of that name yet.
+   pure subroutine find_group(document, file, name, number, at, problem)
       type(document_t), intent(in) :: document
-      character(*), intent(in) :: name
-      integer, intent(in) :: number              !! 0: not said
+      character(*), intent(in) :: file, name
+      integer, intent(in) :: number              ! 0: not said
       integer, intent(out) :: at
       character(:), allocatable, intent(out) :: problem
-
       integer :: there
 
       problem = ''
@@ -112,23 +111,8 @@ contains
       if (number == 0 .and. there > 1) then
          problem = 'there are '//to_text(there)//' groups &'//name//'; say '//name//'(1) to '//name//'('//to_text(there)//')'
       else if (number > max(there, 1)) then
-         problem = 'there is no group &'//name//' number '//to_text(number)//' in '//document%file &
-                   //', only '//to_text(there)
+         problem = 'there is no group &'//name//' number '//to_text(number)//' in '//file//', only '//to_text(there)
       end if
    end subroutine find_group
 
-   !> Drops what an override stands for and adds it.
-   subroutine replace_entry(group, item)
-      type(group_t), intent(inout) :: group
-      type(entry_t), intent(in) :: item
-
-      integer :: i
-
-      do i = group%entry_count(), 1, -1
-         if (group%entries(i)%key /= item%key) cycle
-         if (item%element == 0 .or. group%entries(i)%element == item%element) call group%drop_entry(i)
-      end do
-      call group%add_entry(item)
-   end subroutine replace_entry
-
-end module override_keys
+end module overrides

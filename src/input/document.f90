@@ -1,6 +1,7 @@
 !> A namelist file taken apart: its groups, their keys, the values as written and where.
-module namelist_document
+module document
    use findings, only: place_t
+   use name_table, only: name_table_t
    use text, only: to_text
    implicit none
    private
@@ -19,10 +20,12 @@ module namelist_document
       character(:), allocatable :: key       !! in lower case
       integer :: element = 0                 !! 0: the whole key
       type(place_t) :: place
-      type(value_t), allocatable :: values(:)
+      type(value_t), allocatable :: values(:)   !! (n) and room for more
+      integer :: n = 0
+      character(:), allocatable :: option    !! text behind the '=' of --set, not taken apart yet
       logical :: broken = .false.            !! a mistake in it is noted already
-      character(:), allocatable :: raw       !! text behind the '=' of --set, not taken apart yet
-      logical :: known = .false.             !! asked for by the reader
+      logical :: known = .false.             !! there is such a key
+      logical :: taken = .false.             !! its values are those of the scene
    contains
       procedure :: add_value
    end type entry_t
@@ -31,127 +34,107 @@ module namelist_document
    type :: group_t
       character(:), allocatable :: name      !! in lower case
       type(place_t) :: place
-      type(entry_t), allocatable :: entries(:)
+      type(entry_t), allocatable :: entries(:)  !! (n) and room for more
+      integer :: n = 0
+      logical :: unsure = .false.            !! a choice was refused: what goes with it is not known
    contains
       procedure :: add_entry
       procedure :: drop_entry
-      procedure :: entry_count
    end type group_t
 
    !> All groups of a file in their order.
    type :: document_t
-      character(:), allocatable :: file
-      type(group_t), allocatable :: groups(:)
+      type(group_t), allocatable :: groups(:)   !! (n) and room for more
+      integer :: n = 0
+      type(name_table_t), private :: numbers    ! 'name': how many; 'name 2': position of the second
    contains
       procedure :: add_group
-      procedure :: group_count
       procedure :: count_of
       procedure :: index_of
       procedure :: entry_of
       procedure :: given
       procedure :: place_of
-      procedure :: line_place
    end type document_t
 
 contains
 
    !> Appends a value.
-   subroutine add_value(self, word, in_quotes)
+   pure subroutine add_value(self, word, in_quotes)
       class(entry_t), intent(inout) :: self
       character(*), intent(in) :: word
       logical, intent(in) :: in_quotes
-
       type(value_t), allocatable :: longer(:)
-      integer :: i, n
 
-      n = 0
-      if (allocated(self%values)) n = size(self%values)
-      allocate (longer(n + 1))
-      do i = 1, n
-         longer(i) = self%values(i)
-      end do
-      longer(n + 1)%text = word
-      longer(n + 1)%quoted = in_quotes
-      call move_alloc(longer, self%values)
+      if (.not. allocated(self%values)) allocate (self%values(1))
+      if (self%n == size(self%values)) then
+         allocate (longer(2*self%n))
+         longer(:self%n) = self%values
+         call move_alloc(longer, self%values)
+      end if
+      self%n = self%n + 1
+      self%values(self%n)%text = word
+      self%values(self%n)%quoted = in_quotes
    end subroutine add_value
 
    !> Appends a key.
-   subroutine add_entry(self, item)
+   pure subroutine add_entry(self, item)
       class(group_t), intent(inout) :: self
       type(entry_t), intent(in) :: item
-
       type(entry_t), allocatable :: longer(:)
-      integer :: i
 
-      allocate (longer(self%entry_count() + 1))
-      do i = 1, self%entry_count()
-         longer(i) = self%entries(i)
-      end do
-      longer(size(longer)) = item
-      call move_alloc(longer, self%entries)
+      if (.not. allocated(self%entries)) allocate (self%entries(4))
+      if (self%n == size(self%entries)) then
+         allocate (longer(2*self%n))
+         longer(:self%n) = self%entries
+         call move_alloc(longer, self%entries)
+      end if
+      self%n = self%n + 1
+      self%entries(self%n) = item
    end subroutine add_entry
 
    !> Takes a key out, because a later one stands for it.
-   subroutine drop_entry(self, at)
+   pure subroutine drop_entry(self, at)
       class(group_t), intent(inout) :: self
       integer, intent(in) :: at
-
-      type(entry_t), allocatable :: shorter(:)
-      integer :: i, kept
-
-      allocate (shorter(size(self%entries) - 1))
-      kept = 0
-      do i = 1, size(self%entries)
-         if (i == at) cycle
-         kept = kept + 1
-         shorter(kept) = self%entries(i)
-      end do
-      call move_alloc(shorter, self%entries)
-   end subroutine drop_entry
-
-   !> Number of keys.
-   pure integer function entry_count(self)
-      class(group_t), intent(in) :: self
-
-      entry_count = 0
-      if (allocated(self%entries)) entry_count = size(self%entries)
-   end function entry_count
-
-   !> Appends a group.
-   subroutine add_group(self, item)
-      class(document_t), intent(inout) :: self
-      type(group_t), intent(in) :: item
-
-      type(group_t), allocatable :: longer(:)
       integer :: i
 
-      allocate (longer(self%group_count() + 1))
-      do i = 1, self%group_count()
-         longer(i) = self%groups(i)
+      do i = at, self%n - 1
+         self%entries(i) = self%entries(i + 1)
       end do
-      longer(size(longer)) = item
-      call move_alloc(longer, self%groups)
+      self%n = self%n - 1
+   end subroutine drop_entry
+
+   !> Appends a group.
+   pure subroutine add_group(self, item)
+      class(document_t), intent(inout) :: self
+      type(group_t), intent(in) :: item
+      type(group_t), allocatable :: longer(:)
+      integer :: i, number
+
+      if (.not. allocated(self%groups)) allocate (self%groups(16))
+      if (self%n == size(self%groups)) then
+         allocate (longer(2*self%n))
+         do i = 1, self%n
+            longer(i)%place = self%groups(i)%place
+            longer(i)%n = self%groups(i)%n
+            call move_alloc(self%groups(i)%name, longer(i)%name)
+            call move_alloc(self%groups(i)%entries, longer(i)%entries)
+         end do
+         call move_alloc(longer, self%groups)
+      end if
+      self%n = self%n + 1
+      self%groups(self%n) = item
+      number = self%count_of(item%name) + 1
+      call self%numbers%put(item%name, number)
+      call self%numbers%put(item%name//' '//to_text(number), self%n)
    end subroutine add_group
-
-   !> Number of groups.
-   pure integer function group_count(self)
-      class(document_t), intent(in) :: self
-
-      group_count = 0
-      if (allocated(self%groups)) group_count = size(self%groups)
-   end function group_count
 
    !> Number of groups of one name.
    pure integer function count_of(self, name)
       class(document_t), intent(in) :: self
       character(*), intent(in) :: name
 
-      integer :: i
-
-      count_of = 0
-      do i = 1, self%group_count()
-         if (self%groups(i)%name == name) count_of = count_of + 1
-      end do
+      count_of = self%numbers%find(name)
    end function count_of
 
    !> Position of the number-th group of a name, 0 if there is none.
@@ -160,15 +143,7 @@ contains
       character(*), intent(in) :: name
       integer, intent(in) :: number
 
-      integer :: i, seen
-
-      index_of = 0
-      seen = 0
-      do i = 1, self%group_count()
-         if (self%groups(i)%name /= name) cycle
-         seen = seen + 1
-         if (seen == number) index_of = i
-      end do
+      index_of = self%numbers%find(name//' '//to_text(number))
    end function index_of
 
    !> Position of a key's last mention in a group, 0 if it is not there.
@@ -177,12 +152,10 @@ contains
       integer, intent(in) :: group           !! position of the group, 0 for none
       character(*), intent(in) :: key
 
-      integer :: i
-
       entry_of = 0
       if (group == 0) return
-      do i = 1, self%groups(group)%entry_count()
-         if (self%groups(group)%entries(i)%key == key) entry_of = i
+      do entry_of = self%groups(group)%n, 1, -1
+         if (self%groups(group)%entries(entry_of)%key == key) return
       end do
    end function entry_of
 
@@ -197,34 +170,17 @@ contains
    end function given
 
    !> Where a key stands; where its group starts if it is not given; the file if that is not there either.
-   pure type(place_t) function place_of(self, name, number, key)
+   pure type(place_t) function place_of(self, name, number, key) result(place)
       class(document_t), intent(in) :: self
       character(*), intent(in) :: name
       integer, intent(in) :: number
       character(*), intent(in) :: key        !! '' for the group itself
-
       integer :: group, item
 
       group = self%index_of(name, number)
       item = self%entry_of(group, key)
-      if (item > 0) then
-         place_of = self%groups(group)%entries(item)%place
-      else if (group > 0) then
-         place_of = self%groups(group)%place
-      else
-         ! By component: gfortran 12's constructor loses the length of a deferred-length text.
-         place_of%text = self%file
-         place_of%line = 0
-      end if
+      if (group > 0) place = self%groups(group)%place
+      if (item > 0) place = self%groups(group)%entries(item)%place
    end function place_of
 
-   !> A line of the file as a place.
-   pure type(place_t) function line_place(self, line)
-      class(document_t), intent(in) :: self
-      integer, intent(in) :: line
-
-      line_place%text = self%file//':'//to_text(line)
-      line_place%line = line
-   end function line_place
-
-end module namelist_document
+end module document
