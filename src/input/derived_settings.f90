@@ -2,6 +2,7 @@
 module derived_settings
    use findings, only: findings_t
    use kinds, only: dp
+   use known_solutions, only: known_solutions_t
    use namelist_document, only: document_t
    use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t
@@ -9,19 +10,20 @@ module derived_settings
    implicit none
    private
 
-   public :: resolve_settings, set_reference_speed, start_speed
+   public :: resolve_settings, set_reference_speed, start_speed, reach
 
 contains
 
    !> Sets all that is worked out. What cannot be is a mistake.
-   subroutine resolve_settings(document, setup, notes)
+   subroutine resolve_settings(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(inout) :: setup
       type(findings_t), intent(inout) :: notes
 
       call enclose_discs(setup%bodies)
       call resolve_pressures(document, setup, notes)
-      call resolve_sound_speed(document, setup, notes)
+      call resolve_sound_speed(document, solutions, setup, notes)
       call resolve_viscosity(document, setup, notes)
    end subroutine resolve_settings
 
@@ -69,15 +71,16 @@ contains
    end subroutine resolve_pressures
 
    !> Works out the sound speed from Mach number and reference speed unless it is given.
-   subroutine resolve_sound_speed(document, setup, notes)
+   subroutine resolve_sound_speed(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(inout) :: setup
       type(findings_t), intent(inout) :: notes
 
       if (.not. notes%clean('fluid')) return
       associate (fluid => setup%fluid)
          if (fluid%find_reference_speed) then
-            call guess_sound_speed(document, setup, notes)
+            call guess_sound_speed(document, solutions, setup, notes)
          else if (fluid%sound_speed > 0.0_dp) then
             if (fluid%mach > 0.0_dp) then
                call notes%warning(document%place_of('fluid', 1, 'mach'), '&fluid mach = '//to_text(fluid%mach) &
@@ -97,8 +100,9 @@ contains
    end subroutine resolve_sound_speed
 
    !> Sound speed for the checks, and for the coarse run that will find reference_speed.
-   subroutine guess_sound_speed(document, setup, notes)
+   subroutine guess_sound_speed(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(inout) :: setup
       type(findings_t), intent(inout) :: notes
 
@@ -113,7 +117,7 @@ contains
             call notes%mistake(document%place_of('fluid', 1, 'reference_speed'), 'fluid', &
                                auto//'needs mach, the Mach number to have: mach = 0.1')
          else
-            speed = guessed_speed(setup)
+            speed = guessed_speed(setup, solutions)
             if (.not. speed > 0.0_dp .and. notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
@@ -126,8 +130,9 @@ contains
    end subroutine guess_sound_speed
 
    !> Speed that the fluid may reach: from the start, by falling, by the other forces, at moving walls [m/s].
-   pure real(dp) function guessed_speed(setup) result(speed)
+   real(dp) function guessed_speed(setup, solutions) result(speed)
       type(settings_t), intent(in) :: setup
+      class(known_solutions_t), intent(in) :: solutions
 
       real(dp) :: floor_at, top
       integer :: i
@@ -141,34 +146,23 @@ contains
          if (is_wall(domain%bottom)) floor_at = domain%lower(2)
          speed = max(speed, sqrt(2*setup%fluid%gravity*max(0.0_dp, top - floor_at)))
          do i = 1, size(bodies)
-            speed = max(speed, start_speed(setup, bodies(i)))
+            speed = max(speed, start_speed(setup, bodies(i), solutions))
          end do
       end associate
    end function guessed_speed
 
    !> Largest speed that a body starts with or the central field soon gives it [m/s].
-   pure real(dp) function start_speed(setup, body) result(speed)
+   real(dp) function start_speed(setup, body, solutions) result(speed)
       type(settings_t), intent(in) :: setup
       type(body_settings), intent(in) :: body   !! its box is known
+      class(known_solutions_t), intent(in) :: solutions
 
-      real(dp) :: farthest
-
-      associate (centre => setup%force%centre, amplitude => abs(setup%exact%amplitude))
-         speed = setup%force%central_rate*reach(body, centre)
-         if (body%flow == 'uniform') then
-            speed = max(speed, norm2(body%velocity))
-         else
-            farthest = reach(body, (body%lower + body%upper)/2)
-            select case (setup%exact%solution)
-            case ('oscillating_drop', 'rotating_square')
-               speed = max(speed, amplitude*farthest)
-            case ('taylor_green')
-               speed = max(speed, amplitude)
-            case ('acoustic_wave')
-               speed = max(speed, amplitude*setup%fluid%sound_speed)
-            end select
-         end if
-      end associate
+      speed = setup%force%central_rate*reach(body, setup%force%centre)
+      if (body%flow == 'uniform') then
+         speed = max(speed, norm2(body%velocity))
+      else
+         speed = max(speed, solutions%start_speed(setup, body))
+      end if
    end function start_speed
 
    !> Largest distance of a body's points from a centre [m].

@@ -5,6 +5,7 @@ module scene_input
    use file_system, only: is_link, path_exists
    use key_reader, only: key_reader_t
    use key_writer, only: as_defaults, as_echo, as_shortest, as_tables, as_template, key_writer_t
+   use known_solutions, only: known_solutions_t
    use namelist_text, only: scan_namelist
    use override_keys, only: apply_override
    use scene_keys, only: visit_keys
@@ -22,9 +23,10 @@ contains
 
    !> Reads a scene from a namelist file.
    !! Raises exit_files if the file cannot be read, exit_input with all mistakes in it.
-   subroutine read_settings(path, overrides, setup, warnings, problem)
+   subroutine read_settings(path, overrides, solutions, setup, warnings, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: overrides(:)        !! 'group.key=value', later ones win
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(out) :: setup
       character(:), allocatable, intent(out) :: warnings(:)
       type(failure), intent(inout) :: problem
@@ -37,7 +39,7 @@ contains
          allocate (setup%bodies(0), setup%probes(0), setup%gauges(0))
          return
       end if
-      call read_settings_text(content, path, overrides, setup, warnings, problem)
+      call read_settings_text(content, path, overrides, solutions, setup, warnings, problem)
    end subroutine read_settings
 
    !> The text of a scene's file. Raises exit_files.
@@ -54,10 +56,11 @@ contains
 
    !> Reads a scene from namelist text.
    !! Raises exit_input with all mistakes in it.
-   subroutine read_settings_text(content, file, overrides, setup, warnings, problem)
+   subroutine read_settings_text(content, file, overrides, solutions, setup, warnings, problem)
       character(*), intent(in) :: content
       character(*), intent(in) :: file                !! name for messages
       character(*), intent(in) :: overrides(:)
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(out) :: setup
       character(:), allocatable, intent(out) :: warnings(:)
       type(failure), intent(inout) :: problem
@@ -80,17 +83,18 @@ contains
       allocate (setup%bodies(reader%document%count_of('body')))
       allocate (setup%probes(reader%document%count_of('probe')))
       allocate (setup%gauges(reader%document%count_of('gauge')))
-      call visit_keys(reader, setup)
+      call visit_keys(reader, solutions, setup)
       call reader%finish()
-      call resolve_settings(reader%document, setup, reader%notes)
-      call check_settings(reader%document, setup, reader%notes)
+      call resolve_settings(reader%document, solutions, setup, reader%notes)
+      call check_settings(reader%document, solutions, setup, reader%notes)
       call reader%notes%warning_list(warnings)
       if (reader%notes%any_mistake()) call problem%raise(exit_input, reader%notes%mistake_text())
    end subroutine read_settings_text
 
    !> Writes the complete input of a run; reading it gives the same settings bit by bit.
-   subroutine write_echo(unit, setup)
+   subroutine write_echo(unit, solutions, setup)
       integer, intent(in) :: unit
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
 
       type(key_writer_t) :: writer
@@ -102,7 +106,7 @@ contains
       write (unit, '(a)') '! The complete input of this run: all keys that have an effect, with the defaults it used.'
       call tell_derived(unit, setup%fluid)
       call leave_derived_out(copy%fluid)
-      call visit_keys(writer, copy)
+      call visit_keys(writer, solutions, copy)
    end subroutine write_echo
 
    !> Says what is worked out from other keys.
@@ -127,8 +131,9 @@ contains
    end subroutine leave_derived_out
 
    !> Writes the scene in as few lines as it takes; reading it gives the same complete input.
-   subroutine write_shortest(unit, setup)
+   subroutine write_shortest(unit, solutions, setup)
       integer, intent(in) :: unit
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
 
       type(key_writer_t) :: writer
@@ -145,13 +150,14 @@ contains
       end if
       writer%unit = unit
       writer%style = as_defaults
-      call visit_keys(writer, defaults)
+      call visit_keys(writer, solutions, defaults)
       writer%style = as_shortest
-      call visit_keys(writer, copy)
+      call visit_keys(writer, solutions, copy)
    end subroutine write_shortest
 
    !> The same as one text, lines ended by new_line.
-   function echo_text(setup) result(content)
+   function echo_text(solutions, setup) result(content)
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
       character(:), allocatable :: content
 
@@ -160,7 +166,7 @@ contains
 
       content = ''
       open (newunit=unit, status='scratch', action='readwrite')
-      call write_echo(unit, setup)
+      call write_echo(unit, solutions, setup)
       rewind (unit)
       do
          read (unit, '(a)', iostat=status) line
@@ -171,8 +177,9 @@ contains
    end function echo_text
 
    !> Writes a namelist of all keys with default, unit, range and meaning.
-   subroutine write_template(unit)
+   subroutine write_template(unit, solutions)
       integer, intent(in) :: unit
+      class(known_solutions_t), intent(in) :: solutions
 
       type(key_writer_t) :: writer
 
@@ -181,12 +188,13 @@ contains
       write (unit, '(a)') '! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.', &
          '! Keys behind a ! have an effect only with another choice, which is named.', &
          '! Units are SI or any other consistent set, such as d = g = density = 1.'
-      call visit_defaults(writer)
+      call visit_defaults(writer, solutions)
    end subroutine write_template
 
    !> Writes the list of all keys as Markdown, docs/input.md.
-   subroutine write_markdown(unit)
+   subroutine write_markdown(unit, solutions)
       integer, intent(in) :: unit
+      class(known_solutions_t), intent(in) :: solutions
 
       type(key_writer_t) :: writer
 
@@ -197,17 +205,18 @@ contains
          'A scene is a namelist file; `dynsph --template` prints one to fill in, `dynsph --shortest FILE.nml` what of a scene', &
          'differs from the defaults. Units are SI or any other consistent set, such as d = g = density = 1, in which times are', &
          't sqrt(g/d). `--set group.key=value` on the command line goes before the file; `body(2).key` means the second &body.'
-      call visit_defaults(writer)
+      call visit_defaults(writer, solutions)
    end subroutine write_markdown
 
    !> Shows all keys with their defaults, one body, one probe and one gauge.
-   subroutine visit_defaults(writer)
+   subroutine visit_defaults(writer, solutions)
       type(key_writer_t), intent(inout) :: writer
+      class(known_solutions_t), intent(in) :: solutions
 
       type(settings_t) :: defaults
 
       allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
-      call visit_keys(writer, defaults)
+      call visit_keys(writer, solutions, defaults)
    end subroutine visit_defaults
 
    !> Reads a whole file.

@@ -5,6 +5,7 @@ module scene_keys
    use integrators, only: integrator_names
    use key_visitor, only: above, any_number, at_least, between, key_visitor_t
    use kinds, only: dp
+   use known_solutions, only: known_solutions_t
    use settings, only: body_settings, choice_length, domain_settings, exact_settings, fluid_settings, force_settings, &
                        gauge_settings, model_settings, name_length, output_settings, probe_settings, scene_settings, &
                        settings_t, time_settings
@@ -21,16 +22,6 @@ module scene_keys
 
    character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
 
-   !> Solutions of module `exact`.
-   character(choice_length), parameter, public :: solution_names(*) = [character(choice_length) :: 'none', 'hydrostatic', &
-      'standing_wave', 'oscillating_drop', 'impact', 'taylor_green', 'acoustic_wave', 'couette', 'poiseuille', 'rotating_square']
-
-   !> Those that &exact amplitude and &exact waves belong to.
-   character(choice_length), parameter :: with_amplitude(*) = [character(choice_length) :: &
-      'standing_wave', 'oscillating_drop', 'taylor_green', 'acoustic_wave', 'rotating_square']
-   character(choice_length), parameter, public :: with_waves(*) = [character(choice_length) :: &
-      'standing_wave', 'taylor_green', 'acoustic_wave']
-
    !> What snapshots can hold.
    character(name_length), parameter :: field_names(*) = &
       [character(name_length) :: 'velocity', 'pressure', 'density', 'vorticity', 'alpha', 'delta', 'dissipation']
@@ -38,8 +29,9 @@ module scene_keys
 contains
 
    !> Shows all groups and keys to a visitor, which may change their values.
-   subroutine visit_keys(keys, setup)
+   subroutine visit_keys(keys, solutions, setup)
       class(key_visitor_t), intent(inout) :: keys
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(inout) :: setup   !! bodies, probes and gauges are allocated: one visit each
 
       integer :: i
@@ -59,7 +51,7 @@ contains
       call keys%announce('model', 'The diffusive terms.', .false., .false.)
       call visit_model(keys, setup%model)
       call keys%announce('exact', 'The exact solution that the scene follows; errors are written to errors.dat.', .false., .false.)
-      call visit_exact(keys, setup%exact)
+      call visit_exact(keys, solutions, setup%exact)
       call keys%announce('time', 'The time step and the end of the run.', .true., .false.)
       call visit_time(keys, setup%time)
       call keys%announce('output', "What is written and how often: '10 steps', '0.05 time' or 'never'.", .false., .false.)
@@ -204,17 +196,22 @@ contains
    end subroutine visit_model
 
    !> Keys of &exact.
-   subroutine visit_exact(keys, exact)
+   subroutine visit_exact(keys, solutions, exact)
       class(key_visitor_t), intent(inout) :: keys
+      class(known_solutions_t), intent(in) :: solutions
       type(exact_settings), intent(inout) :: exact
 
+      character(choice_length), allocatable :: names(:)
+      logical, allocatable :: has_amplitude(:), has_waves(:)
+
+      call solutions%list(names, has_amplitude, has_waves)
       call keys%enter('exact', 1)
-      call keys%choice_key('solution', exact%solution, solution_names, 'Which solution; docs/scenes.md says what each needs.')
-      call keys%only_with('a solution that has an amplitude', any(exact%solution == with_amplitude))
+      call keys%choice_key('solution', exact%solution, names, 'Which solution; docs/scenes.md says what each needs.')
+      call keys%only_with('a solution that has an amplitude', any(has_amplitude .and. names == exact%solution))
       call keys%real_key('amplitude', exact%amplitude, any_number(), 'of the solution', &
                          'Wave height/depth, strain rate of the drop [1/s], speed [m/s], rotation [1/s] or share of rho0.', &
                          required=.true.)
-      call keys%only_with('a solution that has waves', any(exact%solution == with_waves))
+      call keys%only_with('a solution that has waves', any(has_waves .and. names == exact%solution))
       call keys%integer_key('waves', exact%waves, at_least(1.0_dp), '-', 'Wavelengths in the box, of waves.')
       call keys%leave()
    end subroutine visit_exact

@@ -6,10 +6,10 @@ module settings_check
    use body_check, only: check_bodies
    use derived_settings, only: start_speed
    use domain_check, only: check_domain
-   use exact_check, only: check_exact
    use findings, only: findings_t, place_t
    use integrators, only: new_integrator
    use kinds, only: dp
+   use known_solutions, only: known_solutions_t
    use linear_stability, only: new_stability, stability_t
    use namelist_document, only: document_t
    use output_check, only: check_output
@@ -30,20 +30,21 @@ module settings_check
 contains
 
    !> Runs all checks. What follows from the keys must be worked out.
-   subroutine check_settings(document, setup, notes)
+   subroutine check_settings(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
       call check_domain(document, setup, notes)
       call check_units(document, setup, notes)
-      call check_mach(document, setup, notes)
+      call check_mach(document, solutions, setup, notes)
       call check_stability(document, setup, notes)
       call check_viscosity(document, setup, notes)
       call check_bodies(document, setup, notes)
       call check_particle_number(document, setup, notes)
       call check_step_number(document, setup, notes)
-      call check_exact(document, setup, notes)
+      call solutions%check(document, setup, notes)
       call check_output(document, setup, notes)
    end subroutine check_settings
 
@@ -65,8 +66,9 @@ contains
    end subroutine check_units
 
    !> The fluid should be only weakly compressible.
-   subroutine check_mach(document, setup, notes)
+   subroutine check_mach(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
@@ -74,7 +76,7 @@ contains
       character(:), allocatable :: key
 
       if (.not. notes%clean('fluid')) return
-      call check_speeds(document, setup, notes)
+      call check_speeds(document, solutions, setup, notes)
       associate (fluid => setup%fluid)
          mach = fluid%reference_speed/fluid%sound_speed
          if (fluid%find_reference_speed) mach = fluid%mach
@@ -92,8 +94,9 @@ contains
    end subroutine check_mach
 
    ! What the bodies start with must be slower than sound, and so must falling by their own height and moving walls.
-   subroutine check_speeds(document, setup, notes)
+   subroutine check_speeds(document, solutions, setup, notes)
       type(document_t), intent(in) :: document
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: setup
       type(findings_t), intent(inout) :: notes
 
@@ -105,7 +108,7 @@ contains
       if (.not. (notes%clean('body') .and. notes%clean('exact') .and. notes%clean('force'))) return
       do i = 1, size(setup%bodies)
          associate (body => setup%bodies(i))
-            speed = max(start_speed(setup, body), sqrt(setup%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
+            speed = max(start_speed(setup, body, solutions), sqrt(setup%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
             call check_speed(speed, '&body number '//to_text(i)//': its speed, given or by the forces on it,', &
                              document%place_of('body', i, 'velocity'), setup, notes)
          end associate

@@ -3,6 +3,7 @@ module scene_texts
    use errors, only: exit_input, failure
    use scene_input, only: read_settings_text, write_echo
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    implicit none
    private
 
@@ -49,7 +50,7 @@ contains
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       if (.not. problem%raised()) return
       message = problem%message
       if (problem%code /= exit_input) message = 'wrong exit code'
@@ -75,7 +76,7 @@ contains
       character(:), allocatable :: warnings(:)
       integer :: i
 
-      call read_settings_text(scene_with(number, line), 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(scene_with(number, line), 'f', no_overrides, solutions_t(), setup, warnings, problem)
       lines = ''
       if (problem%raised()) lines = 'refused '
       do i = 1, size(warnings)
@@ -93,7 +94,7 @@ contains
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(scene_with(0, ''), 'f', [phrase], setup, warnings, problem)
+      call read_settings_text(scene_with(0, ''), 'f', [phrase], solutions_t(), setup, warnings, problem)
       if (problem%raised()) message = problem%message
    end function override_refusal
 
@@ -122,7 +123,7 @@ contains
       integer :: unit
 
       open (newunit=unit, status='scratch')
-      call write_echo(unit, setup)
+      call write_echo(unit, solutions_t(), setup)
       content = content_of(unit)
       close (unit)
    end function echo_of
@@ -135,7 +136,7 @@ contains
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       if (problem%raised()) error stop 'a scene that should be right is refused; refusal_of(content) says why'
    end function settings_of
 
@@ -166,7 +167,7 @@ contains
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       line = ''
       if (size(warnings) > 0) line = trim(warnings(1))
    end function first_warning

@@ -1,4 +1,4 @@
-!> What a scene lacks for something, gathered so that all of it can be told at once.
+!> What a scene lacks for its exact solution, gathered so that all of it can be told at once; and what several of them need.
 module scene_needs
    use kinds, only: dp
    use settings, only: choice_length, name_length, settings_t, side_names
@@ -6,7 +6,7 @@ module scene_needs
    implicit none
    private
 
-   public :: needs_t, need_no_weight, need_open_sides, need_one_body, need_width, need_full_box, same
+   public :: needs_t, need_no_weight, need_open_sides, need_one_body, need_rest, need_water_on_floor, need_full_box, same
 
    real(dp), parameter, public :: slack = 1.0e-9_dp   !! of lengths in units of d: rounding of the input
 
@@ -83,17 +83,32 @@ contains
       call needs%unless(setup%bodies(1)%shape == shape, "&body shape = '"//shape//"'", 'body', 'shape')
    end subroutine need_one_body
 
-   !> The body must reach from the left to the right side.
-   subroutine need_width(setup, needs)
+   !> All bodies must be at rest.
+   subroutine need_rest(setup, needs)
       type(settings_t), intent(in) :: setup
       type(needs_t), intent(inout) :: needs
 
+      integer :: i
+
+      call needs%unless(all([(norm2(setup%bodies(i)%velocity) <= 0.0_dp, i=1, size(setup%bodies))]), &
+                        'fluid at rest: velocity = 0, 0', 'body', 'velocity')
+   end subroutine need_rest
+
+   !> There must be one rectangle, which lies on the floor from the left to the right side.
+   subroutine need_water_on_floor(setup, needs)
+      type(settings_t), intent(in) :: setup
+      type(needs_t), intent(inout) :: needs
+
+      call need_one_body(setup, 'rectangle', needs)
+      if (size(setup%bodies) /= 1) return
       associate (body => setup%bodies(1), domain => setup%domain)
          call needs%unless(same(setup, body%lower(1), domain%lower(1)) .and. same(setup, body%upper(1), domain%upper(1)), &
                            'a body from side to side, from x = '//to_text(domain%lower(1))//' to '//to_text(domain%upper(1)), &
                            'body', 'upper')
+         call needs%unless(same(setup, body%lower(2), domain%lower(2)), 'a body on the floor: lower(2) = ' &
+                           //to_text(domain%lower(2)), 'body', 'lower')
       end associate
-   end subroutine need_width
+   end subroutine need_water_on_floor
 
    !> The body must fill the box.
    subroutine need_full_box(setup, needs)
