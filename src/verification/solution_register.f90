@@ -16,6 +16,7 @@ module solution_register
    use solution, only: solution_t
    use standing_wave, only: standing_wave_solution
    use taylor_green, only: taylor_green_solution
+   use water_hammer, only: water_hammer_solution_t
    implicit none
    private
 
@@ -55,6 +56,7 @@ contains
       call all%add('couette', couette_solution())
       call all%add('poiseuille', poiseuille_solution())
       call all%add('rotating_square', rotating_square_solution())
+      call all%add('water_hammer', water_hammer_solution_t())
    end subroutine go_through
 
    subroutine add(self, name, solution)
