@@ -3,7 +3,8 @@
 !! A shock runs back from the wall with speed D; the fluid is at rest behind it and still has the speed U before it. Mass and
 !! momentum through the shock, seen from it, with p = c0**2 (rho - rho0):
 !!
-!!     rho0 (U + D) = rho D,   p = rho0 (U + D) U,   hence D (U + D) = c0**2,   D = (sqrt(U**2 + 4 c0**2) - U)/2,   p = rho0 c0**2 U/D
+!!     rho0 (U + D) = rho D,   p = rho0 (U + D) U,   hence D (U + D) = c0**2:
+!!     D = (sqrt(U**2 + 4 c0**2) - U)/2,   p = rho0 c0**2 U/D
 !!
 !! To first order in U/c0 that is p = rho0 c0 U: Joukowsky, Mem. Acad. Imp. Sci. St. Petersbourg 9 (1898). Of a column of length L
 !! the free end meets the shock at t = L/(D + U), where the solution ends.
