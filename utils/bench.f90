@@ -21,6 +21,7 @@ program bench
    use scene_input, only: read_settings
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    use text, only: short
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t, wall_seconds
@@ -72,7 +73,7 @@ contains
       end if
       call parse_command_line([words(1), words(4:)], options, problem)
       if (problem%raised()) return
-      call read_settings(trim(options%scene), options%overrides, scene, warnings, problem)
+      call read_settings(trim(options%scene), options%overrides, solutions_t(), scene, warnings, problem)
       if (.not. problem%raised() .and. .not. (start_time >= 0 .and. start_time <= scene%time%end_time)) &
          call problem%raise(exit_input, &
          'dynsph-bench: START_TIME must be from 0 to the end_time of the scene, '//short(scene%time%end_time))

@@ -21,6 +21,7 @@ program ladder
    use scene_input, only: read_settings
    use scene_setup, only: needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    use text, only: behind
    use time_step, only: advance, refresh, step_t
    use timers, only: timers_t
@@ -113,7 +114,7 @@ contains
          overrides = [character(longest_line) :: overrides, adjustl(rest(:bar - 1))]
          rest = behind(rest, bar)
       end do
-      call read_settings(path, overrides, variant%scene, warnings, problem)
+      call read_settings(path, overrides, solutions_t(), variant%scene, warnings, problem)
       if (.not. problem%raised()) variant%model = set_up_model(variant%scene)
    end subroutine read_variant
 

@@ -16,6 +16,7 @@ program margins
    use scene_input, only: load_scene, read_settings_text
    use scene_run, only: run_into_directory
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    use text, only: short
    use waiting, only: sleep_while_waiting
    implicit none
@@ -69,7 +70,7 @@ contains
       as_dynsph%quiet = given%given('--quiet')
       call load_scene(as_dynsph%scene, content, problem)
       if (problem%raised()) return
-      call read_settings_text(content, as_dynsph%scene, as_dynsph%overrides, scene, warnings, problem)
+      call read_settings_text(content, as_dynsph%scene, as_dynsph%overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return
       call take('--sound', shares%sound)
       call take('--diffusion', shares%diffusion)

@@ -1,13 +1,14 @@
 !> The table of errors against the scene's exact solution, and what it comes to in the end.
 module error_table
    use cadence, only: cadence_t
+   use columns, only: columns_t
    use errors, only: failure
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
    use settings, only: settings_t
-   use solution_errors, only: measure_errors, name_length, solution_errors_t, start_errors
-   use solution_results, only: result_t, results_of
+   use solution_errors, only: measure_errors, results_of, solution_errors_t, start_errors
+   use solution_results, only: history_t, result_t
    use summary, only: summary_t
    use table, only: table_t
    use time_scale, only: time_scale_t
@@ -23,8 +24,7 @@ module error_table
       type(table_t) :: table
       type(cadence_t) :: when
       type(time_scale_t) :: scale
-      real(dp), allocatable :: times(:)        !! (rows, with room for more)
-      real(dp), allocatable :: history(:, :)   !! (columns, rows, with room for more)
+      type(history_t) :: history               !! with room for more rows
       integer :: rows = 0
       logical :: in_use = .false.
    contains
@@ -47,6 +47,7 @@ contains
       type(failure), intent(inout) :: problem      !! exit_files
       character(200) :: lines(4)
       character(:), allocatable :: message
+      type(columns_t) :: row
 
       if (scene%exact%solution == 'none') return
       call self%when%parse(trim(scene%output%errors), message)
@@ -54,13 +55,16 @@ contains
       self%in_use = .true.
       self%scale = scale
       call start_errors(self%errors, scene, model, p)
-      allocate (self%times(64), self%history(size(self%errors%names), 64))
+      call row%add('time', 'time', 0.0_dp)
+      call row%add('time_scaled', scale%name, 0.0_dp)
+      call measure_errors(self%errors, model, p, 0.0_dp, row)
+      self%history%names = row%names(3:)
+      allocate (self%history%times(64), self%history%values(size(self%history%names), 64))
       lines(1) = 'title: '//scene%scene%title
       lines(2) = 'solution: '//scene%exact%solution
       lines(3) = 'errors of velocity and pressure, weighted by volume and divided by a scale of the solution: docs/scenes.md'
       lines(4) = '_exact: of the continuum; _lattice: with the viscosity or sound speed of particles on a square lattice'
-      call self%table%create(path, lines, [character(name_length) :: 'time', 'time_scaled', self%errors%names], &
-                             [character(name_length) :: 'time', scale%name, self%errors%units], problem)
+      call self%table%create(path, lines, row%names, row%units, problem)
    end subroutine start
 
    !> Measures and writes a row if it is due.
@@ -72,24 +76,27 @@ contains
       real(dp), intent(in) :: time, time_before   !! of this step and the step before
       logical, intent(in) :: last                 !! the run ends here
       type(failure), intent(inout) :: problem     !! exit_files
-      real(dp), allocatable :: values(:), more(:, :)
+      type(columns_t) :: row
+      real(dp), allocatable :: more(:, :)
 
       if (.not. self%in_use) return
       if (.not. (last .or. self%when%is_due(step, time, time_before))) return
       if (self%rows > 0) then
-         if (time <= self%times(self%rows)) return   ! recorded before it turned out to be the last
+         if (time <= self%history%times(self%rows)) return   ! recorded before it turned out to be the last
       end if
-      call measure_errors(self%errors, model, p, time, values)
-      call self%table%row([time, time/self%scale%unit, values], problem)
-      if (self%rows == size(self%times)) then
-         self%times = [self%times, self%times]
-         allocate (more(size(values), 2*self%rows))
-         more(:, :self%rows) = self%history
-         call move_alloc(more, self%history)
-      end if
-      self%rows = self%rows + 1
-      self%times(self%rows) = time
-      self%history(:, self%rows) = values
+      call measure_errors(self%errors, model, p, time, row)
+      call self%table%row([time, time/self%scale%unit, row%values], problem)
+      associate (history => self%history)
+         if (self%rows == size(history%times)) then
+            history%times = [history%times, history%times]
+            allocate (more(size(row%values), 2*self%rows))
+            more(:, :self%rows) = history%values
+            call move_alloc(more, history%values)
+         end if
+         self%rows = self%rows + 1
+         history%times(self%rows) = time
+         history%values(:, self%rows) = row%values
+      end associate
    end subroutine record
 
    !> Adds the results to the summary; what the run was too short for is 'none'.
@@ -100,7 +107,9 @@ contains
       integer :: k
 
       if (.not. self%in_use) return
-      results = results_of(self%errors, self%times(:self%rows), self%history(:, :self%rows))
+      associate (h => self%history, n => self%rows)
+         results = results_of(self%errors%solution, history_t(h%names, h%times(:n), h%values(:, :n)))
+      end associate
       do k = 1, size(results)
          if (results(k)%known) call file%add(trim(results(k)%key), results(k)%value)
          if (.not. results(k)%known) call file%add(trim(results(k)%key), 'none')

@@ -17,6 +17,7 @@ program main
    use scene_run, only: output_directory, run_into_directory
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    use text, only: to_text
    use threads, only: limit_threads
    use waiting, only: sleep_while_waiting
@@ -35,9 +36,9 @@ program main
    else if (options%version) then
       call write_version()
    else if (options%template) then
-      write (output_unit, '(a)', advance='no') template()
+      write (output_unit, '(a)', advance='no') template(solutions_t())
    else if (options%keys) then
-      write (output_unit, '(a)', advance='no') tables()
+      write (output_unit, '(a)', advance='no') tables(solutions_t())
    else
       call run_scene(options, problem)
    end if
@@ -65,10 +66,10 @@ contains
 
       call load_scene(options%scene, content, problem)
       if (problem%raised()) return
-      call read_settings_text(content, options%scene, options%overrides, scene, warnings, problem)
+      call read_settings_text(content, options%scene, options%overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return
       if (options%shortest) then
-         write (output_unit, '(a)', advance='no') shortest_input(scene)
+         write (output_unit, '(a)', advance='no') shortest_input(solutions_t(), scene)
          return
       end if
       if (.not. options%check) then

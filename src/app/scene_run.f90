@@ -12,6 +12,7 @@ module scene_run
    use scene_setup, only: set_up_model
    use settings, only: settings_t
    use simulation, only: simulate
+   use solution_register, only: solutions_t
    use text, only: short, to_text
    implicit none
    private
@@ -49,7 +50,7 @@ contains
          //short(margins%diffusion)//', viscous '//short(margins%viscous)//' of a lattice''s limits; warnings about cfl mean ' &
          //'those of dynsph')
       if (.not. problem%raised()) then
-         input_text = complete_input(scene)
+         input_text = complete_input(solutions_t(), scene)
          call write_whole_file(directory%file(input_name), input_text, problem)
       end if
       if (problem%raised()) then
@@ -81,7 +82,7 @@ contains
       allocate (character(max(len(found), len(options%overrides))) :: overrides(n + 1))
       overrides(:n) = options%overrides
       overrides(n + 1) = found
-      call read_settings_text(content, options%scene, overrides, scene, warnings, problem)
+      call read_settings_text(content, options%scene, overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return
       do k = 1, size(warnings)
          if (.not. any(told == warnings(k))) call log%warn('input '//to_text(size(told) + k), trim(warnings(k)))

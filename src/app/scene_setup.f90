@@ -1,7 +1,6 @@
 !> From the input to the model's constants and the particles at t = 0.
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
-   use exact_solution, only: exact_solution_t, new_exact_solution
    use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
@@ -11,6 +10,8 @@ module scene_setup
    use model, only: model_t
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
+   use solution, only: solution_t
+   use solution_register, only: new_solution
    use square_lattice, only: lattice_crowd
    implicit none
    private
@@ -116,13 +117,13 @@ contains
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(particles_t), intent(out) :: p
-      type(exact_solution_t) :: solution
+      class(solution_t), allocatable :: solution
       type(sites_t) :: sites
       integer :: k, i, slot
       real(dp) :: position(2), velocity(2), pressure
 
       call allocate_particles(p, count_particles(scene), needed_features(scene))
-      solution = new_exact_solution(scene, model, on_lattice=.false.)
+      call new_solution(scene, model, solution)
       slot = 0
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k))

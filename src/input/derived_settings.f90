@@ -2,13 +2,14 @@
 module derived_settings
    use draft, only: draft_t
    use kinds, only: dp
+   use known_solutions, only: known_solutions_t
    use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t
    use text, only: to_text
    implicit none
    private
 
-   public :: resolve_settings, set_reference_speed, start_speed
+   public :: resolve_settings, set_reference_speed, start_speed, reach
 
 contains
 
@@ -101,7 +102,7 @@ contains
             call draft%mistake('fluid', 'reference_speed', &
                                auto//'needs mach, the Mach number to have: mach = 0.1')
          else
-            speed = guessed_speed(draft%scene)
+            speed = guessed_speed(draft%scene, draft%solutions)
             if (.not. speed > 0.0_dp .and. draft%notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
@@ -114,8 +115,9 @@ contains
    end subroutine guess_sound_speed
 
    !> Speed that the fluid may reach: from the start, by falling, by the other forces, at moving walls [m/s].
-   pure real(dp) function guessed_speed(scene) result(speed)
+   real(dp) function guessed_speed(scene, solutions) result(speed)
       type(settings_t), intent(in) :: scene
+      class(known_solutions_t), intent(in) :: solutions
       real(dp) :: floor_at, top
       integer :: i
 
@@ -128,33 +130,23 @@ contains
          if (is_wall(domain%bottom)) floor_at = domain%lower(2)
          speed = max(speed, sqrt(2*scene%fluid%gravity*max(0.0_dp, top - floor_at)))
          do i = 1, size(bodies)
-            speed = max(speed, start_speed(scene, bodies(i)))
+            speed = max(speed, start_speed(scene, bodies(i), solutions))
          end do
       end associate
    end function guessed_speed
 
    !> Largest speed that a body starts with or the central field soon gives it [m/s].
-   pure real(dp) function start_speed(scene, body) result(speed)
+   real(dp) function start_speed(scene, body, solutions) result(speed)
       type(settings_t), intent(in) :: scene
       type(body_settings), intent(in) :: body   !! its box is known
-      real(dp) :: farthest
+      class(known_solutions_t), intent(in) :: solutions
 
-      associate (centre => scene%force%centre, amplitude => abs(scene%exact%amplitude))
-         speed = scene%force%central_rate*reach(body, centre)
-         if (body%flow == 'uniform') then
-            speed = max(speed, norm2(body%velocity))
-         else
-            farthest = reach(body, (body%lower + body%upper)/2)
-            select case (scene%exact%solution)
-            case ('oscillating_drop', 'rotating_square')
-               speed = max(speed, amplitude*farthest)
-            case ('taylor_green')
-               speed = max(speed, amplitude)
-            case ('acoustic_wave')
-               speed = max(speed, amplitude*scene%fluid%sound_speed)
-            end select
-         end if
-      end associate
+      speed = scene%force%central_rate*reach(body, scene%force%centre)
+      if (body%flow == 'uniform') then
+         speed = max(speed, norm2(body%velocity))
+      else
+         speed = max(speed, solutions%start_speed(scene, body))
+      end if
    end function start_speed
 
    !> Largest distance of a body's points from a centre [m].

@@ -2,6 +2,7 @@
 module draft
    use document, only: document_t
    use findings, only: findings_t
+   use known_solutions, only: known_solutions_t
    use settings, only: settings_t
    implicit none
    private
@@ -13,6 +14,7 @@ module draft
       type(document_t) :: document
       type(settings_t) :: scene
       type(findings_t) :: notes
+      class(known_solutions_t), allocatable :: solutions
    contains
       procedure :: given
       procedure :: clean

@@ -30,7 +30,7 @@ contains
             do number = 1, count_groups(draft%scene, groups(g)%name)
                at = draft%document%index_of(trim(groups(g)%name), number)
                if (at == 0) cycle
-               call list_keys(draft%scene, groups(g)%name, number, keys)
+               call list_keys(draft%scene, draft%solutions, groups(g)%name, number, keys)
                if (pass == 1) then
                   do i = 1, keys%n
                      call read_key(draft%document%groups(at), keys%items(i), draft%notes)

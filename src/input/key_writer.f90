@@ -2,6 +2,7 @@
 module key_writer
    use growing_text, only: growing_text_t
    use key_table, only: key_t, keys_t
+   use known_solutions, only: known_solutions_t
    use resting_fluid, only: resting_force, resting_force_t
    use scene_keys, only: count_groups, groups, known_group_t, list_keys
    use settings, only: fluid_settings, settings_t
@@ -17,7 +18,8 @@ module key_writer
 contains
 
    !> The complete input of a run; reading it gives the same settings bit by bit.
-   function complete_input(scene) result(content)
+   function complete_input(solutions, scene) result(content)
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: content
       type(settings_t), target :: copy
@@ -30,7 +32,7 @@ contains
       copy = as_given(scene)
       do g = 1, size(groups)
          do number = 1, count_groups(copy, groups(g)%name)
-            call list_keys(copy, groups(g)%name, number, keys)
+            call list_keys(copy, solutions, groups(g)%name, number, keys)
             call lines%add_line('')
             call lines%add_line('&'//trim(groups(g)%name))
             do i = 1, keys%n
@@ -69,7 +71,8 @@ contains
    end function as_given
 
    !> The scene in as few lines as it takes; reading it gives the same complete input.
-   function shortest_input(scene) result(content)
+   function shortest_input(solutions, scene) result(content)
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: content
       type(settings_t), target :: copy, defaults
@@ -88,9 +91,9 @@ contains
          end associate
       end do
       do g = 1, size(groups)
-         call list_keys(defaults, groups(g)%name, 1, default_keys)
+         call list_keys(defaults, solutions, groups(g)%name, 1, default_keys)
          do number = 1, count_groups(copy, groups(g)%name)
-            call list_keys(copy, groups(g)%name, number, keys)
+            call list_keys(copy, solutions, groups(g)%name, number, keys)
             call add_short_group(trim(groups(g)%name), keys, default_keys, lines)
          end do
       end do
@@ -124,7 +127,8 @@ contains
    end subroutine add_short_group
 
    !> A namelist of all keys with default, unit, range and meaning.
-   function template() result(content)
+   function template(solutions) result(content)
+      class(known_solutions_t), intent(in) :: solutions
       character(:), allocatable :: content
       type(settings_t), target :: defaults
       type(growing_text_t) :: lines
@@ -136,7 +140,7 @@ contains
       call lines%add_line('! Units are SI or any other consistent set, such as d = g = density = 1.')
       allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
       do g = 1, size(groups)
-         call list_keys(defaults, groups(g)%name, 1, keys)
+         call list_keys(defaults, solutions, groups(g)%name, 1, keys)
          call lines%add_line('')
          call lines%add_line('! '//described(groups(g)))
          call lines%add_line('&'//trim(groups(g)%name))
@@ -166,7 +170,8 @@ contains
    end function template_line
 
    !> The list of all keys as Markdown, docs/input.md.
-   function tables() result(content)
+   function tables(solutions) result(content)
+      class(known_solutions_t), intent(in) :: solutions
       character(:), allocatable :: content
       type(settings_t), target :: defaults
       type(growing_text_t) :: lines
@@ -185,7 +190,7 @@ contains
                           //'the second &body.')
       allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
       do g = 1, size(groups)
-         call list_keys(defaults, groups(g)%name, 1, keys)
+         call list_keys(defaults, solutions, groups(g)%name, 1, keys)
          call lines%add_line('')
          call lines%add_line('## &'//trim(groups(g)%name))
          call lines%add_line('')

@@ -5,6 +5,7 @@ module scene_input
    use errors, only: exit_files, exit_input, failure
    use file_system, only: is_link, path_exists
    use key_reader, only: read_values
+   use known_solutions, only: known_solutions_t
    use overrides, only: apply_override
    use scanner, only: scan_namelist
    use settings, only: settings_t
@@ -18,9 +19,10 @@ contains
 
    !> Reads a scene from a namelist file.
    !! Raises exit_files if the file cannot be read, exit_input with all mistakes in it.
-   subroutine read_settings(path, overrides, scene, warnings, problem)
+   subroutine read_settings(path, overrides, solutions, scene, warnings, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: overrides(:)        !! 'group.key=value', later ones win
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(out) :: scene
       character(:), allocatable, intent(out) :: warnings(:)
       type(failure), intent(inout) :: problem
@@ -32,7 +34,7 @@ contains
          allocate (scene%bodies(0), scene%probes(0), scene%gauges(0))
          return
       end if
-      call read_settings_text(content, path, overrides, scene, warnings, problem)
+      call read_settings_text(content, path, overrides, solutions, scene, warnings, problem)
    end subroutine read_settings
 
    !> The text of a scene's file. Raises exit_files.
@@ -48,10 +50,11 @@ contains
 
    !> Reads a scene from namelist text.
    !! Raises exit_input with all mistakes in it.
-   subroutine read_settings_text(content, file, overrides, scene, warnings, problem)
+   subroutine read_settings_text(content, file, overrides, solutions, scene, warnings, problem)
       character(*), intent(in) :: content
       character(*), intent(in) :: file                !! name for messages
       character(*), intent(in) :: overrides(:)
+      class(known_solutions_t), intent(in) :: solutions
       type(settings_t), intent(out) :: scene
       character(:), allocatable, intent(out) :: warnings(:)
       type(failure), intent(inout) :: problem
@@ -67,6 +70,7 @@ contains
          return
       end if
       draft%notes%file = file
+      allocate (draft%solutions, source=solutions)
       call scan_namelist(content, draft%document, draft%notes)
       do i = 1, size(overrides)
          call apply_override(overrides(i), draft%document, draft%notes)

@@ -5,6 +5,7 @@ module scene_keys
    use integrators, only: integrator_names
    use key_table, only: above, any_number, at_least, between, keys_t
    use kinds, only: dp
+   use known_solutions, only: known_solutions_t
    use settings, only: body_settings, choice_length, domain_settings, exact_settings, fluid_settings, force_settings, &
                        gauge_settings, group_names, model_settings, name_length, output_settings, probe_settings, scene_settings, &
                        settings_t, time_settings
@@ -20,16 +21,6 @@ module scene_keys
    real(dp), parameter, public :: largest_mach = 0.5_dp
 
    character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
-
-   !> Solutions of module `exact`.
-   character(choice_length), parameter, public :: solution_names(*) = [character(choice_length) :: 'none', 'hydrostatic', &
-      'standing_wave', 'oscillating_drop', 'impact', 'taylor_green', 'acoustic_wave', 'couette', 'poiseuille', 'rotating_square']
-
-   !> Those that &exact amplitude and &exact waves belong to.
-   character(choice_length), parameter :: with_amplitude(*) = [character(choice_length) :: &
-      'standing_wave', 'oscillating_drop', 'taylor_green', 'acoustic_wave', 'rotating_square']
-   character(choice_length), parameter, public :: with_waves(*) = [character(choice_length) :: &
-      'standing_wave', 'taylor_green', 'acoustic_wave']
 
    !> What snapshots can hold.
    character(name_length), parameter :: field_names(*) = &
@@ -59,8 +50,9 @@ module scene_keys
 contains
 
    !> The keys of a group. A change of the scene makes the table old: which keys are active is seen when it is made.
-   subroutine list_keys(scene, group, number, keys)
+   subroutine list_keys(scene, solutions, group, number, keys)
       type(settings_t), intent(inout), target :: scene
+      class(known_solutions_t), intent(in) :: solutions
       character(*), intent(in) :: group
       integer, intent(in) :: number          !! of the group, where it may be repeated
       type(keys_t), intent(out) :: keys      !! values point into the scene
@@ -79,7 +71,7 @@ contains
       case ('model')
          call add_model_keys(keys, scene%model)
       case ('exact')
-         call add_exact_keys(keys, scene%exact)
+         call add_exact_keys(keys, solutions, scene%exact)
       case ('time')
          call add_time_keys(keys, scene%time)
       case ('output')
@@ -219,16 +211,20 @@ contains
    end subroutine add_model_keys
 
    ! Keys of &exact.
-   subroutine add_exact_keys(keys, exact)
+   subroutine add_exact_keys(keys, solutions, exact)
       type(keys_t), intent(inout) :: keys
+      class(known_solutions_t), intent(in) :: solutions
       type(exact_settings), intent(inout), target :: exact
+      character(choice_length), allocatable :: names(:)
+      logical, allocatable :: has_amplitude(:), has_waves(:)
 
-      call keys%choice_key('solution', exact%solution, solution_names, 'Which solution; docs/scenes.md says what each needs.')
-      call keys%only_with('a solution that has an amplitude', any(exact%solution == with_amplitude))
+      call solutions%list(names, has_amplitude, has_waves)
+      call keys%choice_key('solution', exact%solution, names, 'Which solution; docs/scenes.md says what each needs.')
+      call keys%only_with('a solution that has an amplitude', any(has_amplitude .and. names == exact%solution))
       call keys%real_key('amplitude', exact%amplitude, any_number(), 'of the solution', &
                          'Wave height/depth, strain rate of the drop [1/s], speed [m/s], rotation [1/s] or share of rho0.', &
                          required=.true.)
-      call keys%only_with('a solution that has waves', any(exact%solution == with_waves))
+      call keys%only_with('a solution that has waves', any(has_waves .and. names == exact%solution))
       call keys%whole_key('waves', exact%waves, at_least(1.0_dp), '-', 'Wavelengths in the box, of waves.')
    end subroutine add_exact_keys
 

@@ -7,7 +7,6 @@ module settings_check
    use derived_settings, only: start_speed
    use domain_check, only: check_domain
    use draft, only: draft_t
-   use exact_check, only: check_exact
    use integrators, only: new_integrator
    use kinds, only: dp
    use linear_stability, only: new_stability, stability_t
@@ -40,7 +39,7 @@ contains
       call check_bodies(draft)
       call check_particle_number(draft)
       call check_step_number(draft)
-      call check_exact(draft%document, draft%scene, draft%notes)
+      call draft%solutions%check(draft%document, draft%scene, draft%notes)
       call check_output(draft)
    end subroutine check_settings
 
@@ -93,7 +92,8 @@ contains
       if (.not. draft%clean('body exact force')) return
       do i = 1, size(draft%scene%bodies)
          associate (body => draft%scene%bodies(i))
-            speed = max(start_speed(draft%scene, body), sqrt(draft%scene%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
+            speed = max(start_speed(draft%scene, body, draft%solutions), &
+                        sqrt(draft%scene%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
             call check_speed(speed, '&body number '//to_text(i)//': its speed, given or by the forces on it,', &
                              'body', 'velocity', i, draft)
          end associate

@@ -4,6 +4,7 @@ module scene_texts
    use key_writer, only: complete_input
    use scene_input, only: read_settings_text
    use settings, only: settings_t
+   use solution_register, only: solutions_t
    implicit none
    private
 
@@ -50,7 +51,7 @@ contains
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       if (.not. problem%raised()) return
       message = problem%message
       if (problem%code /= exit_input) message = 'wrong exit code'
@@ -76,7 +77,7 @@ contains
       character(:), allocatable :: warnings(:)
       integer :: i
 
-      call read_settings_text(scene_with(number, line), 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(scene_with(number, line), 'f', no_overrides, solutions_t(), setup, warnings, problem)
       lines = ''
       if (problem%raised()) lines = 'refused '
       do i = 1, size(warnings)
@@ -94,7 +95,7 @@ contains
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(scene_with(0, ''), 'f', [phrase], setup, warnings, problem)
+      call read_settings_text(scene_with(0, ''), 'f', [phrase], solutions_t(), setup, warnings, problem)
       if (problem%raised()) message = problem%message
    end function override_refusal
 
@@ -103,7 +104,7 @@ contains
       type(settings_t), intent(in) :: setup
       character(:), allocatable :: content
 
-      content = complete_input(setup)
+      content = complete_input(solutions_t(), setup)
    end function echo_of
 
    !> Settings of a text that is right.
@@ -114,7 +115,7 @@ contains
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       if (problem%raised()) error stop 'a scene that should be right is refused; refusal_of(content) says why'
    end function settings_of
 
@@ -145,7 +146,7 @@ contains
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
       line = ''
       if (size(warnings) > 0) line = trim(warnings(1))
    end function first_warning
