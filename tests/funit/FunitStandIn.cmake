@@ -2,7 +2,9 @@
 
 add_library(funit STATIC ${CMAKE_CURRENT_LIST_DIR}/funit_values.f90 ${CMAKE_CURRENT_LIST_DIR}/funit.f90)
 add_executable(funit_translate ${CMAKE_CURRENT_LIST_DIR}/translate.f90)
-target_include_directories(funit PUBLIC ${CMAKE_Fortran_MODULE_DIRECTORY})
+# A directory of its own, as in pFUnit: who uses modules of somebody else has to say so.
+set_target_properties(funit PROPERTIES Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/funit_modules)
+target_include_directories(funit PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/funit_modules)
 foreach(target IN ITEMS funit funit_translate)
    target_compile_options(${target} PRIVATE -std=f2018 -Wall -Wextra -Wimplicit-interface)
 endforeach()

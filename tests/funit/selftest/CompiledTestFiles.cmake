@@ -13,7 +13,7 @@ function(compilation_of name message assert)
       set(expected "")
    endif()
    add_test(NAME funit_compilation_of_${name} COMMAND ${CMAKE_COMMAND}
-      "-DCOMMAND=sh;-c;'$<TARGET_FILE:funit_translate>' ${name}.pf ${name}.F90 && LC_ALL=C '${CMAKE_Fortran_COMPILER}' -c '-I${CMAKE_Fortran_MODULE_DIRECTORY}' ${name}.F90 -o ${name}.o"
+      "-DCOMMAND=sh;-c;'$<TARGET_FILE:funit_translate>' ${name}.pf ${name}.F90 && LC_ALL=C '${CMAKE_Fortran_COMPILER}' -c '-I$<TARGET_PROPERTY:funit,Fortran_MODULE_DIRECTORY>' ${name}.F90 -o ${name}.o"
       -DWORKING_DIRECTORY=${directory} -DEXIT_STATUS=${status} "-DEXPECT=${expected}" -P ${run_and_expect})
 endfunction()
 
