@@ -86,6 +86,11 @@ add_test(NAME snapshot_has_its_title COMMAND ${CMAKE_COMMAND}
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=# title: Taylor-Green vortices\n" -P ${run_and_expect})
 set_tests_properties(snapshot_has_its_title PROPERTIES FIXTURES_REQUIRED taylor_green_result TIMEOUT 30)
 
+# What cmake --install makes works, wherever it is moved to.
+add_test(NAME installed_programs_work COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
+   -DDIRECTORY=${here}/installed -P ${scenes}/check_install.cmake)
+set_tests_properties(installed_programs_work PROPERTIES TIMEOUT 60)
+
 # dynsph-stability: what its columns do not hold, arguments longer than a number is as a rule, an edge that was not found.
 function(stability_says test status lines message reject)
    add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
