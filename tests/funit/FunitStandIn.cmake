@@ -2,10 +2,13 @@
 
 add_library(funit STATIC ${CMAKE_CURRENT_LIST_DIR}/funit_values.f90 ${CMAKE_CURRENT_LIST_DIR}/funit.f90)
 add_executable(funit_translate ${CMAKE_CURRENT_LIST_DIR}/translate.f90)
-target_include_directories(funit PUBLIC ${CMAKE_Fortran_MODULE_DIRECTORY})
+# A directory of its own, as in pFUnit: who uses modules of somebody else has to say so.
+set_target_properties(funit PROPERTIES Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/funit_modules)
+target_include_directories(funit PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/funit_modules)
 foreach(target IN ITEMS funit funit_translate)
    target_compile_options(${target} PRIVATE -std=f2018 -Wall -Wextra -Wimplicit-interface)
 endforeach()
+target_compile_options(funit PRIVATE -Wno-unused-dummy-argument)   # of funit_check_ranks, which is for the compiler alone
 
 # add_pfunit_ctest(name TEST_SOURCES a.pf ... [OTHER_SOURCES x.f90 ...] [LINK_LIBRARIES library ...])
 #
@@ -42,6 +45,7 @@ function(funit_add_executable name)
       "program funit_main\n   use funit, only: funit_finish\n   implicit none\n${declarations}${calls}   call funit_finish()\nend program\n")
 
    add_executable(${name} ${generated} ${arg_OTHER_SOURCES})
+   set_target_properties(${name} PROPERTIES Fortran_MODULE_DIRECTORY ${directory})   # its own, as in pFUnit
    target_link_libraries(${name} PRIVATE ${arg_LINK_LIBRARIES} funit)
    # Generated code may warn: -Werror among the flags of the whole build is not meant for it.
    target_compile_options(${name} PRIVATE -Wno-error)

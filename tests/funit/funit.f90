@@ -1,8 +1,8 @@
 !> Stand-in for the part of pFUnit 4 that the tests use, for machines where pFUnit is not installed.
 !!
 !! Where the two could differ this one is the stricter, so that a file that passes here passes there: `tolerance` and `message`
-!! have to be named (`location` stands third among the dummy arguments for that reason alone), strings are equal only if
-!! their lengths are, and kinds are not converted except an `int32` expected against an `int64` actual.
+!! have to be named (`location` stands third among the dummy arguments for that reason alone), and kinds are not converted
+!! except an `int32` expected against an `int64` actual, or in order against a `real64`.
 module funit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use, intrinsic :: iso_fortran_env, only: int32, int64, output_unit, real64
@@ -13,7 +13,7 @@ module funit
    public :: assertEqual, assertTrue, assertFalse, assertRelativelyEqual, assertIsNaN, assertIsFinite
    public :: assertLessThan, assertLessThanOrEqual, assertGreaterThan, assertGreaterThanOrEqual
    public :: assertExceptionRaised, assertFail, throw, anyExceptions, SourceLocation
-   public :: funit_run_test, funit_skip_test, funit_finish   ! called by generated code only
+   public :: funit_run_test, funit_skip_test, funit_finish, funit_check_ranks   ! for generated code only
 
    !> A line of a test file.
    type :: SourceLocation
@@ -36,6 +36,22 @@ module funit
    interface assertEqual
       procedure equal_real64, equal_int32, equal_int64, equal_int32_int64, equal_logical, equal_character
    end interface assertEqual
+
+   !> Fails unless all of `condition` is true.
+   interface assertTrue
+      procedure scalar_is_true, list_is_true
+   end interface assertTrue
+
+   !> Fails unless all of `condition` is false.
+   interface assertFalse
+      procedure scalar_is_false, list_is_false
+   end interface assertFalse
+
+   !> Compiles for the ranks that pFUnit's assertEqual has, of expected and actual: a scalar against anything, else both the same.
+   !! Never called.
+   interface funit_check_ranks
+      procedure scalar_expected, list_expected, table_expected
+   end interface funit_check_ranks
 
    character, parameter :: eol = new_line('a')
 
@@ -114,25 +130,37 @@ contains
 
    ! ---------------------------------------------------------------- conditions and order
 
-   !> Fails unless all of `condition` (scalar or rank 1) is true.
-   subroutine assertTrue(condition, location, message)
-      logical, intent(in) :: condition(..)
+   subroutine scalar_is_true(condition, location, message)
+      logical, intent(in) :: condition
       type(SourceLocation), intent(in), optional :: location
       character(*), intent(in), optional :: message
 
-      if (size(condition) < 1) return   ! gfortran 12 may give an empty array the size -1
-      call require_all(.true., flat(condition, 1), shape(condition), location, message)
-   end subroutine assertTrue
+      call require_all(.true., [condition], [integer ::], location, message)
+   end subroutine scalar_is_true
 
-   !> Fails unless all of `condition` (scalar or rank 1) is false.
-   subroutine assertFalse(condition, location, message)
-      logical, intent(in) :: condition(..)
+   subroutine list_is_true(condition, location, message)
+      logical, intent(in) :: condition(:)
       type(SourceLocation), intent(in), optional :: location
       character(*), intent(in), optional :: message
 
-      if (size(condition) < 1) return
-      call require_all(.false., flat(condition, 1), shape(condition), location, message)
-   end subroutine assertFalse
+      call require_all(.true., condition, shape(condition), location, message)
+   end subroutine list_is_true
+
+   subroutine scalar_is_false(condition, location, message)
+      logical, intent(in) :: condition
+      type(SourceLocation), intent(in), optional :: location
+      character(*), intent(in), optional :: message
+
+      call require_all(.false., [condition], [integer ::], location, message)
+   end subroutine scalar_is_false
+
+   subroutine list_is_false(condition, location, message)
+      logical, intent(in) :: condition(:)
+      type(SourceLocation), intent(in), optional :: location
+      character(*), intent(in), optional :: message
+
+      call require_all(.false., condition, shape(condition), location, message)
+   end subroutine list_is_false
 
    subroutine require_all(wanted, list, extents, location, message)
       logical, intent(in) :: wanted, list(:)
@@ -140,11 +168,8 @@ contains
       type(SourceLocation), intent(in), optional :: location
       character(*), intent(in), optional :: message
 
-      if (size(extents) > 1) then
-         call fail('Conditions of ranks above 1 are not supported', location, message)
-      else if (any(list .neqv. wanted)) then
+      if (any(list .neqv. wanted)) &
          call fail_unequal(list .neqv. wanted, text(wanted), text(.not. wanted), '', extents, location, message)
-      end if
    end subroutine require_all
 
    !> Fails unless a < b.
@@ -199,8 +224,8 @@ contains
          // '; difference b - a = ' // difference, location, message)
    end subroutine require_order
 
-   !> Order and difference of two numbers of the same type.
-   subroutine compare(a, b, order, difference)
+   !> Order and difference of two numbers of the same type, or of an `int32` and a `real64`.
+   recursive subroutine compare(a, b, order, difference)
       class(*), intent(in) :: a, b
       integer, intent(out) :: order   !! -1, 0 or 1 as a < b, a = b or a > b; 2 if there is none (NaN, different types)
       character(:), allocatable, intent(out) :: difference   !! b - a
@@ -220,6 +245,8 @@ contains
          type is (integer(int32))
             difference = text(int(b, int64) - int(a, int64))
             order = merge(1, 0, a > b) - merge(1, 0, a < b)
+         type is (real(real64))
+            call compare(real(a, real64), b, order, difference)
          end select
       type is (integer(int64))
          select type (b)
@@ -353,20 +380,17 @@ contains
       character(*), intent(in), optional :: message
       character(len(expected)), allocatable :: e(:)
       character(len(actual)), allocatable :: a(:)
-      logical, allocatable :: unequal(:)
       integer :: i, at
 
       if (.not. shapes_match(shape(expected), shape(actual), location, message)) return
       allocate (e, source=flat(expected, size(actual)))
       allocate (a, source=flat(actual, 1))
-      ! The language ignores trailing blanks.
-      unequal = [(e(i) /= a(i) .or. len(expected) /= len(actual), i=1, size(a))]
-      i = findloc(unequal, .true., dim=1)
+      i = findloc(e /= a, .true., dim=1)
       if (i == 0) return
       do at = 1, min(len(expected), len(actual))
          if (e(i)(at:at) /= a(i)(at:at)) exit
       end do
-      call fail_unequal(unequal, text(e(i)), text(a(i)), '; difference from character ' // text(at) // ' on', shape(actual), &
+      call fail_unequal(e /= a, text(e(i)), text(a(i)), '; difference from character ' // text(at) // ' on', shape(actual), &
          location, message)
    end subroutine equal_character
 
@@ -385,6 +409,18 @@ contains
          call fail('Ranks above 2 are not supported', location, message)
       end if
    end function shapes_match
+
+   subroutine scalar_expected(expected, actual)
+      type(*), intent(in) :: expected, actual(..)
+   end subroutine scalar_expected
+
+   subroutine list_expected(expected, actual)
+      type(*), intent(in) :: expected(:), actual(:)
+   end subroutine list_expected
+
+   subroutine table_expected(expected, actual)
+      type(*), intent(in) :: expected(:, :), actual(:, :)
+   end subroutine table_expected
 
    !> Fails with the first pair of values that differ and where in the array they stand.
    subroutine fail_unequal(unequal, expected, actual, detail, extents, location, message)

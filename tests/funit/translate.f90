@@ -16,7 +16,7 @@ program translate
       'assertlessthan', 'assertlessthanorequal', 'assertgreaterthan', 'assertgreaterthanorequal', 'assertrelativelyequal', &
       'assertisnan', 'assertisfinite', 'assertexceptionraised', 'assertfail']
    !> Names that pFUnit's module exports too: a procedure of this name does not compile there.
-   character(*), parameter :: taken(*) = [character(name_length) :: 'run', 'initialize', 'finalize']
+   character(*), parameter :: taken(*) = [character(name_length) :: 'run', 'initialize', 'finalize', 'string']
 
    type :: test_case
       character(name_length) :: name = ''
@@ -49,6 +49,7 @@ program translate
          call translate_annotation(trim(adjustl(line(index(line, '@') + 1:))))
       else
          if (awaited /= '') call take_procedure(trim(adjustl(line)))
+         call check_name(lower(trim(adjustl(line))))
          if (module_name == '') call take_module_name(trim(adjustl(line)))
          write (f90, '(a)') trim(line)
       end if
@@ -107,6 +108,12 @@ contains
       end if
       if (rest(last + 1:) /= '') call error('nothing may follow the arguments of @' // name // ' on its line')
       arguments = trim(rest(2:last - 1))
+      if (len('  call ' // name // '(' // rest(2:last - 1) // ', &') > longest_line) &
+         call error('@' // name // ' makes a line of more than 132 columns in pFUnit: "  call ' // name // '(..., &"')
+      if (name == 'assertequal') then
+         call write_here('if (.false.) call funit_check_ranks( &')
+         call write_here('& ' // first_two(arguments) // ')')
+      end if
       call write_here('call ' // name // '( &')
       if (arguments /= '') call write_here('& ' // arguments // ', &')
       call write_here("& location=SourceLocation('" // file_name // "', __LINE__))")
@@ -114,29 +121,55 @@ contains
       call write_line_marker(number + 1)
    end subroutine translate_assert
 
-   !> Position of the parenthesis that closes the one `text` begins with, 0 if there is none; those within strings do not count.
+   !> The first two of the arguments.
+   function first_two(arguments) result(words)
+      character(*), intent(in) :: arguments
+      character(:), allocatable :: words
+      integer :: at, commas, depth
+      character :: quote
+
+      commas = 0
+      depth = 0
+      quote = ' '
+      do at = 1, len(arguments)
+         call follow(arguments(at:at), depth, quote)
+         if (arguments(at:at) == ',' .and. depth == 0 .and. quote == ' ') commas = commas + 1
+         if (commas == 2) exit
+      end do
+      words = arguments(:at - 1)
+   end function first_two
+
+   !> Follows a text letter by letter: how deep in parentheses it is, those within strings do not count.
+   subroutine follow(letter, depth, quote)
+      character, intent(in) :: letter
+      integer, intent(inout) :: depth
+      character, intent(inout) :: quote   !! that has to end the string, blank outside strings
+
+      if (quote /= ' ') then
+         if (letter == quote) quote = ' '
+         return
+      end if
+      select case (letter)
+      case ('''', '"')
+         quote = letter
+      case ('(', '[')
+         depth = depth + 1
+      case (')', ']')
+         depth = depth - 1
+      end select
+   end subroutine follow
+
+   !> Position of the parenthesis that closes the one `text` begins with, 0 if there is none.
    integer function closing_parenthesis(text) result(at)
       character(*), intent(in) :: text
       integer :: depth
-      character :: quote   ! that has to end the string, blank outside strings
+      character :: quote
 
       depth = 0
       quote = ' '
       do at = 1, len(text)
-         if (quote /= ' ') then
-            if (text(at:at) == quote) quote = ' '
-            cycle
-         end if
-         select case (text(at:at))
-         case ('''', '"')
-            quote = text(at:at)
-         case ('(', '[')
-            depth = depth + 1
-         case (')', ']')
-            depth = depth - 1
-         case ('!')
-            exit
-         end select
+         if (text(at:at) == '!' .and. quote == ' ') exit
+         call follow(text(at:at), depth, quote)
          if (depth == 0) exit
       end do
       if (at > len(text)) then
@@ -159,7 +192,6 @@ contains
          name = rest(:length_of_name(rest))
          rest = adjustl(rest(len(name) + 1:))
          if (rest /= '' .and. rest /= '()') call error('@' // trim(awaited) // ' procedures are declared "subroutine name()"')
-         if (any(taken == lower(name))) call error('the name ' // name // ' clashes with one of pFUnit')
          select case (awaited)
          case ('test')
             if (len(name) > longest_name) call error('test name of more than 44 characters')
@@ -174,6 +206,22 @@ contains
       end if
       awaited = ''
    end subroutine take_procedure
+
+   !> A procedure, of a test or not, must not have a name of pFUnit's.
+   subroutine check_name(words)
+      character(*), intent(in) :: words   !! a line in lower case
+      character(:), allocatable :: name
+      integer :: at, k
+      character(*), parameter :: keywords(2) = ['subroutine', 'function  ']
+
+      do k = 1, 2
+         at = index(words, trim(keywords(k)) // ' ')
+         if (at == 0 .or. verify(words(:at), 'abcdefghijklmnopqrstuvwxyz0123456789_() ') > 0 .or. index(words, 'end') == 1) cycle
+         name = trim(adjustl(words(at + len_trim(keywords(k)):)))
+         name = name(:length_of_name(name))
+         if (any(taken == name)) call error('the name ' // name // ' clashes with one of pFUnit')
+      end do
+   end subroutine check_name
 
    !> Notes the module's name if this is a module statement, and checks it.
    subroutine take_module_name(words)

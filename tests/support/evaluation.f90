@@ -1,18 +1,18 @@
 !> One evaluation of all right-hand sides by the code's own procedures, in the order of the particles' numbers.
 module evaluation
    use candidates, only: block_slots
-   use diffusion, only: freeze_density_diffusion, freeze_gradient, freeze_viscosity
-   use diffusion_sums, only: sum_diffusion
    use first_sums, only: first_sums_t, pass_constant, sum_first
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
+   use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
    use images, only: fill_image_gradients, walls_t
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: neighbours_t
-   use particles, only: particles_t
+   use particles, only: particles_t, state_t
    use patches, only: points_t, points_of
+   use runge_kutta, only: block_t
    implicit none
    private
 
@@ -40,19 +40,24 @@ contains
       type(neighbours_t), intent(in) :: near
       type(evaluation_t), intent(out) :: found
       type(walls_t), intent(in), optional :: gradient_walls   !! for the images' gradients, if not the model's
-      real(dp) :: neighbour_gradient(block_slots)
+      type(block_t), allocatable :: blocks(:)
+      type(state_t) :: next
       integer :: b, l, i0, n
 
       found%at = points_of(p)
+      next = p%next   ! it takes the first stage's rates
       associate (n => p%n)
          allocate (found%divergence(n), found%force(2, n), found%first_divergence(n), found%first_force(2, n), &
                    found%matrix(3, n), found%density(2, n), found%density_0(n), found%kernel(2, n), found%viscous(2, n), &
                    found%largest_pi(n), found%acceleration(2, n), found%rate(n), found%viscosity(2, n), &
                    found%gradient(2, n), found%diffusion(n))
       end associate
+      allocate (blocks(near%n_blocks))
       do b = 1, near%n_blocks
+         call begin_frozen_terms(model, p, near, b, blocks(b))
          call evaluate_block(model, p, near, b, found)
       end do
+      found%singular = sum(blocks%singular)
       if (present(gradient_walls)) then
          call fill_image_gradients(near%images, gradient_walls, p%n_own, p%grad_x, p%grad_y)
       else
@@ -61,15 +66,15 @@ contains
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters
-         call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
-         call freeze_density_diffusion(model, neighbour_gradient, p, i0, n)
+         call complete_frozen_terms(model, p, near, b, blocks(b))
          do l = 1, n
             if (p%id(i0 + l) > 0) found%diffusion(p%id(i0 + l)) = p%diff_s(i0 + l)
          end do
       end do
+      p%next = next
    end subroutine evaluate
 
-   ! All that needs no gradient of a neighbour.
+   ! All that needs no gradient of a neighbour; the frozen terms of the block have begun.
    subroutine evaluate_block(model, p, near, b, found)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
@@ -86,8 +91,6 @@ contains
       call sum_first(pass_constant, model%kernel, near%blocks(b), p, near%images%source, i0, sums)
       call sum_flow(model%kernel, near%blocks(b), p%base, i0, flow)
       call flow_rates(model, p%base, i0, n, flow, rates)
-      call freeze_viscosity(model, model%alpha, sums%viscous_x, sums%viscous_y, p, i0, n)
-      call freeze_gradient(model, sums, p, i0, n, found%singular)
       associate (f => model%kernel%gradient_factor)
          do l = 1, n
             i = p%id(i0 + l)

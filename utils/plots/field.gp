@@ -9,7 +9,9 @@
 #   table='FILE.txt'          an already converted snapshot    converter='...'    dynsph-snapshot-to-text
 if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
-if (!exists("converter")) converter = plots.'/../../build/bin/dynsph-snapshot-to-text'
+# In the checkout's build, where it was installed with this script, or on the PATH.
+if (!exists("converter")) converter = system("PATH='".plots."/../../build/bin:".plots."/../../../bin':$PATH; " \
+   ."command -v dynsph-snapshot-to-text || echo dynsph-snapshot-to-text")
 if (!exists("png")) png = dir.'/field.png'
 if (!exists("panels")) panels = 'velocity pressure'
 temporary = ''

@@ -29,7 +29,9 @@ translator_refuses_lines(test_with_argument 4 "@test procedures are declared" "@
 translator_refuses_lines(test_before_test 4 "@test has to stand" "@test\n@test\nsubroutine t()\nend subroutine")
 translator_refuses_lines(test_with_options 3 "nothing may follow @test" "@test(npes=[1])\nsubroutine t()\nend subroutine")
 translator_refuses_lines(test_with_comment 3 "nothing may follow @test" "@test ! why\nsubroutine t()\nend subroutine")
-translator_refuses_lines(clashing_name 4 "the name Run clashes" "@test\nsubroutine Run()\nend subroutine")
+translator_refuses_lines(clashing_name 4 "the name run clashes" "@test\nsubroutine Run()\nend subroutine")
+translator_refuses_lines(test_named_string 4 "the name string clashes" "@test\nsubroutine string()\nend subroutine")
+translator_refuses_lines(clashing_helper 3 "the name finalize clashes" "pure integer function finalize()\nend function")
 string(REPEAT "n" 45 long_name)
 translator_refuses_lines(long_name 4 "test name of more than 44" "@test\nsubroutine ${long_name}()\nend subroutine")
 
@@ -53,4 +55,8 @@ translator_refuses_lines(continued_after_assert 4 "nothing may follow the argume
 
 string(REPEAT "-" 132 dashes)
 translator_refuses_lines(long_line 3 "line of more than 132 columns" "!${dashes}")
+# What pFUnit makes of it, "  call assertEqual(..., &", has 133 columns; 132 are accepted in passing.pf.
+string(REPEAT "-" 109 dashes)
+translator_refuses_lines(long_call 4 "@assertequal makes a line of more than 132 columns in pFUnit"
+   "subroutine h()\n@assertEqual('', '${dashes}')\nend subroutine")
 translator_refuses_lines(preprocessor_comment 3 "/. begins a comment" "! output/*.h5")

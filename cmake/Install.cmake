@@ -1,0 +1,26 @@
+# cmake --install: programs, what they are run with, and what there is to read. Everything finds its like from where it stands,
+# so that the whole may be moved.
+#
+#    bin/                  programs, and dynsph-draw for pictures
+#    share/dynsph/input/   scenes, and in reference/ what was measured
+#    share/dynsph/plots/   the scripts behind dynsph-draw
+#    share/dynsph/         check_paraview.py
+#    share/doc/dynsph/     README.md, LICENSE, docs/
+include(GNUInstallDirs)
+
+set(programs dynsph dynsph-snapshot-to-text dynsph-spectra dynsph-stability dynsph-bench)
+# HDF5 and FFTW may be where the system does not look, as behind `module load`.
+set_target_properties(${programs} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+set(data ${CMAKE_INSTALL_DATADIR}/dynsph)
+install(DIRECTORY input DESTINATION ${data} FILES_MATCHING PATTERN *.nml PATTERN *.csv)
+install(DIRECTORY utils/plots DESTINATION ${data} FILES_MATCHING PATTERN *.gp)
+install(PROGRAMS utils/plots/draw DESTINATION ${data}/plots)
+install(PROGRAMS utils/check_paraview.py DESTINATION ${data})
+file(RELATIVE_PATH draw ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/dynsph/plots/draw)
+file(CREATE_LINK ${draw} ${PROJECT_BINARY_DIR}/generated/dynsph-draw SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/generated/dynsph-draw DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

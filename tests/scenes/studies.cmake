@@ -1,0 +1,27 @@
+# Studies have a quick form, that they do not rot: it must end well and write its results.
+# quick_study(test study timeout EXPECT REJECT), the last two as for run_and_expect.
+function(quick_study test study timeout expect reject)
+   add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=${CMAKE_COMMAND};-E;env;DYNSPH_BUILD=${PROJECT_BINARY_DIR};DYNSPH_RESULTS=${here}/studies;JOBS=1;GOMP_SPINCOUNT=1000;${DYNSPH_BASH};${PROJECT_SOURCE_DIR}/utils/studies/${study};quick"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=${expect}" "-DREJECT=${reject}" "-DCREATED=studies/${study}_quick"
+      -P ${run_and_expect})
+   set_tests_properties(${test} PROPERTIES TIMEOUT ${timeout})
+endfunction()
+
+# With the margins in use flows stay calm, with those of a lattice they do not.
+quick_study(flows_bear_the_margins margins 120 "in use: 0.84 . 1 of 1;in use: 0.9 . 1 of 1;in use: 0.5365 . 1 of 1; 0 of 1" "")
+
+# Each run with extreme input finishes, or ends with a message that has the facts and a last state that is whole; lattices have the
+# edges of linear theory.
+quick_study(extreme_input_ends_well stability 600 " 0 BAD" "")
+# Coarse runs of all methods give numbers, a table for each of seven scenes and two more.
+quick_study(error_vs_time_runs error_vs_time 300 "" "failed;not the same")
+set_tests_properties(error_vs_time_runs PROPERTIES FIXTURES_SETUP error_vs_time_result)
+add_test(NAME error_vs_time_has_numbers COMMAND ${DYNSPH_AWK} -v tables=9 -f ${scenes}/check_tables.awk
+   ${here}/studies/error_vs_time_quick/table.md)
+set_tests_properties(error_vs_time_has_numbers PROPERTIES FIXTURES_REQUIRED error_vs_time_result TIMEOUT 30)
+# Every scene says what it leaves out, and a scene with everything takes the bytes of the smallest one and of all parts. Times are
+# printed, not judged.
+quick_study(leaving_out_is_told leaving_out 120
+   ". oscillating_drop . 7854 . ... .  .  . x .  .  .  .  . x .  . x .  .  . x . x .  .\n;. minimal . 216 .;. dynamic . 272 .*. minimal . 56 .;. all_dynamic . 320 . 320 ."
+   "nan;leaving_out:")
