@@ -17,7 +17,7 @@ set xlabel 'd/dx' offset 0,0.6
 do for [scene in scenes] {
    table = out.'/'.scene.'.dat'
    names = system("sed -n 's/^resolution //p' '".table."'")
-   n = words(names) - 1
+   n = words(names)
    set xrange [*:*]   # stats counts only what is in range
    stats table using 1:2 nooutput
    x1 = STATS_min_x; x2 = STATS_max_x; top = STATS_max_y

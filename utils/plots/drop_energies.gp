@@ -1,10 +1,10 @@
 # Energies of the oscillating drop with those published by Antuono et al. 2015, by utils/studies/drop_energies.
 #
-# usage: gnuplot -e "dir='RESULT'" utils/plots/drop_energies.gp     writes RESULT/energies.png
+# usage: gnuplot -e "dir='RESULT'" utils/plots/drop_energies.gp     writes RESULT/drop_energies.png
 if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 set terminal pngcairo size 1100,620 font font
-set output dir.'/energies.png'
+set output dir.'/drop_energies.png'
 set xlabel 't / T'
 set ylabel 'change of energy / (E_K + E_P) at t = 0'
 set format y '%.3f'
