@@ -130,6 +130,11 @@ endfunction()
 
 # Sensor 2 at 0.2 rho g d, 4 %.
 near_experiment(dam_break_lobovsky "P2 588.6 0.4134 0.4478" scene.resolution=40 time.end_time=0.45)
+# Its scaled time is t sqrt(g/d) with g = 9.81 and d = 0.3.
+add_test(NAME scaled_time_is_scaled COMMAND ${DYNSPH_AWK}
+   "/^#/ { next } !head++ { next } { rows++; if (($2 - $1*sqrt(9.81/0.3))^2 > 1e-16) bad = 1 } END { exit bad || rows < 2 }"
+   ${here}/dam_break_lobovsky/probes.dat)
+set_tests_properties(scaled_time_is_scaled PROPERTIES FIXTURES_REQUIRED dam_break_lobovsky_result TIMEOUT 30)
 # The front at 2 d, 5 %.
 near_experiment(dam_break_square "front 1.2 0.2555 0.2824" scene.resolution=40 time.end_time=0.3)
 # Half of the column's height left, 3 %; the front at 13 a, 10 %: in the experiment it is late.
