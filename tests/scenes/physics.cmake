@@ -74,7 +74,7 @@ follows_exact(oscillating_drop "drop_period_error|-0.005|0.005;drop_a_max_error|
 follows_exact(impact_rectangles "impact_loss_error|-0.015|0.015" time.end_time=0.101)
 follows_exact(taylor_green "taylor_green_decay_over_exact|0.97|1.03;taylor_green_decay_over_lattice|0.98|1.02" scene.resolution=50)
 follows_exact(acoustic_wave "acoustic_speed_over_lattice|0.98|1.02;acoustic_damping_over_lattice|0.98|1.02;acoustic_speed_over_c0|0.94|0.95")
-follows_exact(couette "error_velocity_max|0|0.02;error_velocity_max_mean|0|0.02;couette_viscosity_over_lattice|0.97|1.03"
+follows_exact(couette "error_velocity_max|0|0.02;error_velocity_max_mean|0|0.02;couette_viscosity_over_lattice|0.97|1.03;energy_balance_error|0|1e-9;wall_work|0.4|0.42"
    scene.resolution=20)
 follows_exact(poiseuille "error_velocity_L2_lattice|0|0.02;poiseuille_viscosity_over_lattice|0.97|1.03" scene.resolution=20)
 follows_exact(rotating_square "rotating_square_angular_momentum|0.999|1.001;rotating_square_kinetic_energy|0.9|1" time.end_time=1)
@@ -130,6 +130,11 @@ endfunction()
 
 # Sensor 2 at 0.2 rho g d, 4 %.
 near_experiment(dam_break_lobovsky "P2 588.6 0.4134 0.4478" scene.resolution=40 time.end_time=0.45)
+# Its scaled time is t sqrt(g/d) with g = 9.81 and d = 0.3.
+add_test(NAME scaled_time_is_scaled COMMAND ${DYNSPH_AWK}
+   "/^#/ { next } !head++ { next } { rows++; if (($2 - $1*sqrt(9.81/0.3))^2 > 1e-16) bad = 1 } END { exit bad || rows < 2 }"
+   ${here}/dam_break_lobovsky/probes.dat)
+set_tests_properties(scaled_time_is_scaled PROPERTIES FIXTURES_REQUIRED dam_break_lobovsky_result TIMEOUT 30)
 # The front at 2 d, 5 %.
 near_experiment(dam_break_square "front 1.2 0.2555 0.2824" scene.resolution=40 time.end_time=0.3)
 # Half of the column's height left, 3 %; the front at 13 a, 10 %: in the experiment it is late.

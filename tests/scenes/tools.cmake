@@ -49,6 +49,11 @@ add_test(NAME probe_spectrum_is_made COMMAND ${CMAKE_COMMAND}
    "-DREJECT=NaN;warning" "-DCREATED=dam_break/probe_spectrum.dat" "-DNOT_CREATED=dam_break/probe_spectrum.dat.partial"
    -P ${run_and_expect})
 set_tests_properties(probe_spectrum_is_made PROPERTIES FIXTURES_REQUIRED dam_break_result FIXTURES_SETUP probe_spectrum TIMEOUT 30)
+# The acoustic modes of the box are those of the table's head: 10/(2*5.3667) and 10/2.
+add_test(NAME probe_spectrum_knows_the_box COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=$<TARGET_FILE:dynsph-spectra>;probe;one_thread/probes.dat" -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT=c0/.2L. = 0.9317\n;c0/.2H. = 5\n" "-DCREATED=one_thread/probe_spectrum.dat" -P ${run_and_expect})
+set_tests_properties(probe_spectrum_knows_the_box PROPERTIES FIXTURES_REQUIRED thread_results TIMEOUT 30)
 add_test(NAME vorticity_spectrum_is_made COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=$<TARGET_FILE:dynsph-spectra>;vorticity;--field;dam_break/snapshot_000003.vtkhdf;dam_break/snapshot_000009.vtkhdf"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT= 9.00.*dam_break/snapshot_000009.vtkhdf" "-DREJECT=NaN;warning"
