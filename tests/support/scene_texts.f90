@@ -46,12 +46,12 @@ contains
       character(*), intent(in) :: content
       character(:), allocatable :: message
 
-      type(settings_t) :: setup
+      type(settings_t) :: scene
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), scene, warnings, problem)
       if (.not. problem%raised()) return
       message = problem%message
       if (problem%code /= exit_input) message = 'wrong exit code'
@@ -72,12 +72,12 @@ contains
       character(*), intent(in) :: line
       character(:), allocatable :: lines
 
-      type(settings_t) :: setup
+      type(settings_t) :: scene
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
       integer :: i
 
-      call read_settings_text(scene_with(number, line), 'f', no_overrides, solutions_t(), setup, warnings, problem)
+      call read_settings_text(scene_with(number, line), 'f', no_overrides, solutions_t(), scene, warnings, problem)
       lines = ''
       if (problem%raised()) lines = 'refused '
       do i = 1, size(warnings)
@@ -90,32 +90,32 @@ contains
       character(*), intent(in) :: phrase
       character(:), allocatable :: message
 
-      type(settings_t) :: setup
+      type(settings_t) :: scene
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
       message = ''
-      call read_settings_text(scene_with(0, ''), 'f', [phrase], solutions_t(), setup, warnings, problem)
+      call read_settings_text(scene_with(0, ''), 'f', [phrase], solutions_t(), scene, warnings, problem)
       if (problem%raised()) message = problem%message
    end function override_refusal
 
    !> The complete input of given settings, as text.
-   function echo_of(setup) result(content)
-      type(settings_t), intent(in) :: setup
+   function echo_of(scene) result(content)
+      type(settings_t), intent(in) :: scene
       character(:), allocatable :: content
 
-      content = complete_input(solutions_t(), setup)
+      content = complete_input(solutions_t(), scene)
    end function echo_of
 
    !> Settings of a text that is right.
-   function settings_of(content) result(setup)
+   function settings_of(content) result(scene)
       character(*), intent(in) :: content
-      type(settings_t) :: setup
+      type(settings_t) :: scene
 
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) error stop 'a scene that should be right is refused; refusal_of(content) says why'
    end function settings_of
 
@@ -142,11 +142,11 @@ contains
       character(*), intent(in) :: content
       character(:), allocatable :: line
 
-      type(settings_t) :: setup
+      type(settings_t) :: scene
       type(failure) :: problem
       character(:), allocatable :: warnings(:)
 
-      call read_settings_text(content, 'f', no_overrides, solutions_t(), setup, warnings, problem)
+      call read_settings_text(content, 'f', no_overrides, solutions_t(), scene, warnings, problem)
       line = ''
       if (size(warnings) > 0) line = trim(warnings(1))
    end function first_warning
