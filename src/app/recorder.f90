@@ -9,7 +9,7 @@ module recorder
    use errors, only: failure
    use gauges, only: gauge_t, measure_gauge, new_gauge
    use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
-   use images, only: bottom_wall, left_wall, right_wall
+   use box, only: bottom_wall, left_wall, right_wall
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -117,8 +117,8 @@ contains
       ! For the acoustic modes of the box in spectra; 0 where there are no walls for them.
       width = 0
       height = 0
-      if (all(model%walls%present([left_wall, right_wall]))) width = scene%domain%upper(1) - scene%domain%lower(1)
-      if (model%walls%present(bottom_wall)) height = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
+      if (all(model%box%has_wall([left_wall, right_wall]))) width = scene%domain%upper(1) - scene%domain%lower(1)
+      if (model%box%has_wall(bottom_wall)) height = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
       write (head(3), '(a, es23.16)') 'sound_speed: ', model%c0
       write (head(4), '(a, es23.16)') 'domain_width: ', width
       write (head(5), '(a, es23.16)') 'fluid_height: ', height

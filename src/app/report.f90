@@ -5,7 +5,7 @@ module report
    use cadence, only: cadence_t
    use cost, only: cost_t
    use errors, only: failure
-   use images, only: bottom_wall, left_wall, right_wall, top_wall
+   use box, only: bottom_wall, is_wall, left_wall, no_slip_wall, periodic_side, right_wall, top_wall
    use kinds, only: dp
    use lanes, only: nl, root_name
    use limits, only: sound_speed_for_density, sound_speed_for_mach
@@ -132,12 +132,12 @@ contains
       if (model%gravity > 0) words = words//', gravity'
       if (model%has_force()) words = words//', uniform force'
       if (model%central_rate > 0) words = words//', central force'
-      associate (walls => model%walls)
+      associate (kind => model%box%kind)
          kind_of_images = ', mirror'
-         if (any(abs(walls%density_slope) > 0)) kind_of_images = ', hydrostatic'
-         if (any(walls%present)) words = words//kind_of_images//' images ('//sides_text(walls%present)//')'
-         if (any(walls%no_slip)) words = words//', no slip ('//sides_text(walls%no_slip)//')'
-         if (any(walls%periodic)) words = words//', periodic ('//sides_text(walls%periodic([1, 1, 2, 2]))//')'
+         if (any(abs(model%box%density_slope) > 0)) kind_of_images = ', hydrostatic'
+         if (any(is_wall(kind))) words = words//kind_of_images//' images ('//sides_text(is_wall(kind))//')'
+         if (any(kind == no_slip_wall)) words = words//', no slip ('//sides_text(kind == no_slip_wall)//')'
+         if (any(kind == periodic_side)) words = words//', periodic ('//sides_text(kind == periodic_side)//')'
       end associate
       if (model%dynamic) words = words//', strain rate'
       if (model%alpha > 0 .or. model%dynamic) words = words//', viscosity'
@@ -157,8 +157,8 @@ contains
       has = needed_features(scene)
       words = names_text([character(24) :: 'gravity', 'uniform force', 'central force', 'walls', 'no-slip', 'periodic sides', &
                           'viscosity', 'density diffusion', 'dynamic coefficients'], &
-                         .not. [model%gravity > 0, model%has_force(), model%central_rate > 0, any(model%walls%present), &
-                                has%no_slip, any(model%walls%periodic), has%viscosity, has%diffusion, has%eddy])
+                         .not. [model%gravity > 0, model%has_force(), model%central_rate > 0, any(is_wall(model%box%kind)), &
+                                has%no_slip, any(model%box%kind == periodic_side), has%viscosity, has%diffusion, has%eddy])
    end function left_out
 
    ! What is neither measured nor written.

@@ -1,7 +1,7 @@
 !> From the input to the model's constants and the particles at t = 0.
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
-   use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
+   use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
    use kernel, only: new_kernel
@@ -36,7 +36,7 @@ contains
       model%central_rate = scene%force%central_rate
       model%centre = scene%force%centre
       model%viscosity = scene%fluid%viscosity
-      model%walls = set_up_walls(scene)
+      model%box = set_up_box(scene)
       model%dynamic = scene%model%diffusion == 'dynamic'
       if (model%dynamic) then
          call set_up_dynamic(scene, model)
@@ -67,24 +67,36 @@ contains
       end associate
    end subroutine set_up_dynamic
 
-   pure type(walls_t) function set_up_walls(scene) result(walls)
+   pure type(box_t) function set_up_box(scene) result(box)
       type(settings_t), intent(in) :: scene
 
       associate (domain => scene%domain, fluid => scene%fluid)
-         walls%present(left_wall) = is_wall(domain%left)
-         walls%present(right_wall) = is_wall(domain%right)
-         walls%present(bottom_wall) = is_wall(domain%bottom)
-         walls%present(top_wall) = is_wall(domain%top)
-         walls%no_slip = [domain%left, domain%right, domain%bottom, domain%top] == 'no_slip'
-         walls%periodic = [domain%left, domain%bottom] == 'periodic'
-         walls%speed = domain%wall_speeds
-         walls%at = [domain%lower(1), domain%upper(1), domain%lower(2), domain%upper(2)]
+         box%kind = kind_of_side([domain%left, domain%right, domain%bottom, domain%top])
+         box%at = [domain%lower(1), domain%upper(1), domain%lower(2), domain%upper(2)]
+         box%velocity(2, [left_wall, right_wall]) = domain%wall_speeds([left_wall, right_wall])
+         box%velocity(1, [bottom_wall, top_wall]) = domain%wall_speeds([bottom_wall, top_wall])
          if (domain%images == 'hydrostatic') then
-            walls%density_slope = fluid%density/fluid%sound_speed**2*(scene%force%acceleration - [0.0_dp, fluid%gravity])
-            where (walls%periodic) walls%density_slope = 0
+            box%density_slope = fluid%density/fluid%sound_speed**2*(scene%force%acceleration - [0.0_dp, fluid%gravity])
+            where (box%is_periodic([1, 2])) box%density_slope = 0
          end if
       end associate
-   end function set_up_walls
+   end function set_up_box
+
+   ! Of the input's words.
+   elemental integer function kind_of_side(word) result(kind)
+      character(*), intent(in) :: word
+
+      select case (word)
+      case ('free_slip')
+         kind = free_slip_wall
+      case ('no_slip')
+         kind = no_slip_wall
+      case ('periodic')
+         kind = periodic_side
+      case default
+         kind = open_side
+      end select
+   end function kind_of_side
 
    !> What the scene's particles carry.
    pure type(features_t) function needed_features(scene) result(features)

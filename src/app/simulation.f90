@@ -3,7 +3,7 @@ module simulation
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_numerics, failure
    use kinds, only: dp
-   use images, only: bottom_wall
+   use box, only: bottom_wall
    use limits, only: extremes_t, report_limits, watch_limits
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -65,7 +65,7 @@ contains
       call refresh(model, p, near, run, timers)
       if (run%scattered) then
          call problem%raise(exit_numerics, 'the fluid is further than 4 million strips (of height h) from y = ' &
-                            //short(model%walls%at(bottom_wall))//', the lower side of &domain: move the bodies closer')
+                            //short(model%box%at(bottom_wall))//', the lower side of &domain: move the bodies closer')
          return
       end if
       call start_extremes(model, p, run)

@@ -5,7 +5,7 @@
 !! the uniform force gave.
 module budget
    use energy, only: energies_t, measure_energies
-   use images, only: bottom_wall, left_wall, right_wall
+   use box, only: bottom_wall, is_wall, left_wall, right_wall
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -68,7 +68,7 @@ contains
       has%potential = model%gravity > 0 .or. model%central_rate > 0
       has%viscosity = model%alpha > 0 .or. model%dynamic
       has%diffusion = model%delta > 0 .or. model%dynamic
-      has%walls = any(model%walls%present)
+      has%walls = any(is_wall(model%box%kind))
       has%force = model%has_force()
       has%rotation = model%viscosity > 0
       has%eddies = model%dynamic
@@ -97,7 +97,7 @@ contains
       if (model%gravity > 0) self%normaliser = self%normaliser - mass*model%gravity*minval(p%base%y(1:p%n_own))
       if (self%has_rest) then
          call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
-         self%rest%potential = self%rest%potential + mass*model%gravity*model%walls%at(bottom_wall)
+         self%rest%potential = self%rest%potential + mass*model%gravity*model%box%at(bottom_wall)
          if (self%initial%total() - self%rest%total() > least_share*self%normaliser) then
             self%normaliser = self%initial%total() - self%rest%total()
             self%scale = 'E_M(0) - E_M(at rest in the tank)'
@@ -113,11 +113,9 @@ contains
    pure logical function can_rest(model)
       type(model_t), intent(in) :: model
 
-      associate (walls => model%walls)
-         can_rest = model%gravity > 0 .and. walls%present(bottom_wall) &
-                    .and. (walls%periodic(1) .or. all(walls%present([left_wall, right_wall]))) &
-                    .and. .not. (model%central_rate > 0 .or. model%has_force())
-      end associate
+      can_rest = model%gravity > 0 .and. model%box%has_wall(bottom_wall) &
+                 .and. (model%box%is_periodic(1) .or. all(model%box%has_wall([left_wall, right_wall]))) &
+                 .and. .not. (model%central_rate > 0 .or. model%has_force())
    end function can_rest
 
    ! What the normaliser is where there is no rest state, or too little to lose until it.

@@ -3,7 +3,7 @@
 !! A sensor of diameter D is a disc on the wall; in two dimensions that is an average over a segment, weighted by the
 !! disc's chord. Pressure at a point is interpolated with the kernel over particles and images (Shepard).
 module probes
-   use images, only: bottom_wall, left_wall, right_wall, top_wall
+   use box, only: bottom_wall, is_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -36,8 +36,8 @@ contains
       n = 1
       ! Two points a spacing resolve what particles can.
       if (size_along > 0) n = min(255, 3 + 2*ceiling(size_along/model%dx))
-      distance = abs(probe%position([1, 1, 2, 2]) - model%walls%at)
-      where (.not. model%walls%present) distance = huge(1.0_dp)
+      distance = abs(probe%position([1, 1, 2, 2]) - model%box%at)
+      where (.not. is_wall(model%box%kind)) distance = huge(1.0_dp)
       along = [0.0_dp, size_along/2]
       if (minval(distance(bottom_wall:top_wall)) < minval(distance(left_wall:right_wall))) along = [size_along/2, 0.0_dp]
       allocate (sensor%x(n), sensor%y(n), sensor%weight(n))

@@ -21,6 +21,8 @@ module integrators
       real(dp) :: share(most_stages) = 0    !! b_k/a_k of all stages but the last
       real(dp) :: imaginary = 0             !! sound of rate w: w dt at most
       real(dp) :: negative = 0              !! diffusion of rate w: w dt at most
+   contains
+      procedure :: time_of
    end type integrator_t
 
 contains
@@ -53,5 +55,14 @@ contains
       end select
       self%share(:self%stages - 1) = self%weight(:self%stages - 1)/self%ahead(:self%stages - 1)
    end function new_integrator
+
+   !> When a stage is, from the start of the step and in its length.
+   pure real(dp) function time_of(self, stage)
+      class(integrator_t), intent(in) :: self
+      integer, intent(in) :: stage
+
+      time_of = 0
+      if (stage > 1) time_of = self%ahead(stage - 1)
+   end function time_of
 
 end module integrators

@@ -6,7 +6,9 @@
 !! in time.
 module neighbours
    use candidates, only: block_groups, block_slots, candidates_t, list_group, trim_lists
-   use images, only: bottom_wall, fill_images, images_t, list_images, walls_t
+   use box, only: bottom_wall, box_t
+   use image_laws, only: as_scalar
+   use images, only: fill_ghosts, images_t, list_images
    use kernel, only: kernel_t
    use kinds, only: dp, i8, sp
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
@@ -64,11 +66,11 @@ contains
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
    !! The images are filled. The state of `next` is not changed.
-   subroutine sort_particles(self, p, kernel, walls, dx, span, scattered)
+   subroutine sort_particles(self, p, kernel, box, dx, span, scattered)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
       type(kernel_t), intent(in) :: kernel
-      type(walls_t), intent(in) :: walls
+      type(box_t), intent(in) :: box       !! at the time of `next`
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: span         !! time that the steps to come are expected to take
       logical, intent(out) :: scattered    !! some particle is too far away to go on
@@ -86,7 +88,7 @@ contains
       !$omp end parallel do
       self%strips%height = kernel%support/2
       self%strips%bin_width = dx/4
-      self%strips%origin = walls%at(bottom_wall)
+      self%strips%origin = box%at(bottom_wall)
       call sort_into_strips(self%strips, n_old, p%id(1:n_old), p%stage(1)%x(1:n_old), p%stage(1)%y(1:n_old), 1, .true.)
       scattered = self%strips%n < 0
       if (scattered) return
@@ -103,29 +105,30 @@ contains
       ! Room for steps half as long again as expected.
       self%image_travel = 2*self%tau
       associate (overall => self%strips%overall)
-         ! Others may be beyond a side by what they move outwards.
-         outwards = max(0.0_dp, [-overall%slowest(1), overall%fastest(1), -overall%slowest(2), overall%fastest(2)])
-         if (walls%periodic(1)) outwards(1:2) = maxval(outwards(1:2))
-         if (walls%periodic(2)) outwards(3:4) = maxval(outwards(3:4))
+         ! Others may be beyond a side by what they move outwards, as the side sees it.
+         outwards = [overall%slowest(1), overall%fastest(1), overall%slowest(2), overall%fastest(2)] - box%normal_velocity()
+         outwards = max(0.0_dp, outwards*[-1, 1, -1, 1])
+         if (box%is_periodic(1)) outwards(1:2) = maxval(outwards(1:2))
+         if (box%is_periodic(2)) outwards(3:4) = maxval(outwards(3:4))
          reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       end associate
-      call list_images(self%images, walls, p, self%tau, self%image_travel, reach)
-      call fill_images(self%images, walls, p%n_own, p%base)
+      call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
+      call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles
 
    !> Takes the state of `next` into `base` as it is, with the order and the lists that there are.
-   subroutine keep_order(self, p, walls, step)
+   subroutine keep_order(self, p, box, step)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
-      type(walls_t), intent(in) :: walls
-      real(dp), intent(in) :: step   !! from base to next
+      type(box_t), intent(in) :: box         !! at the time of `next`
+      real(dp), intent(in) :: step           !! from base to next
 
       self%age = self%age + step
       self%margins%stray = self%margins%next_stray
       self%stray = maxval(self%margins(:self%n_blocks)%stray)
       call swap_states(p%base, p%next)
-      call fill_images(self%images, walls, p%n_own, p%base)
+      call fill_ghosts(self%images, box, p%base)
    end subroutine keep_order
 
    ! Gathers state, mass and number of each slot from where its particle was, and how its velocity has changed since it was
@@ -181,11 +184,13 @@ contains
       real(dp), allocatable :: spare(:)
       integer :: i, old
 
+      !$omp parallel do default(none) shared(self, p) private(old)
       do i = 1, self%strips%n_slots
          old = self%strips%point_of(i)
          p%dissipating(i) = 0
          if (old > 0) p%dissipating(i) = p%dissipated(old)
       end do
+      !$omp end parallel do
       call move_alloc(p%dissipated, spare)
       call move_alloc(p%dissipating, p%dissipated)
       call move_alloc(spare, p%dissipating)
@@ -225,7 +230,7 @@ contains
 
       strips%overall = extent_t()
       if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, state) private(first, last)
+      !$omp parallel do default(none) shared(strips, state) private(first, last) schedule(dynamic)
       do k = 1, strips%n
          strips%extent(k) = extent_t()
          first = strips%slot_start(k)
@@ -262,24 +267,18 @@ contains
    end subroutine span_of
 
    ! The slack of each slot, into `slack`, of each strip and of all. An image has its source's.
-   subroutine spread_slack(self, n_own, n_slots, slack)
+   subroutine spread_slack(self, n_own, slack)
       type(neighbours_t), intent(inout) :: self
-      integer, intent(in) :: n_own, n_slots
-      real(dp), intent(inout) :: slack(:)   !! (n_slots)
-      integer :: b, i
+      integer, intent(in) :: n_own
+      real(dp), contiguous, intent(inout) :: slack(:)   !! (n_slots)
+      integer :: b
 
-      !$omp parallel default(none) shared(self, n_own, n_slots, slack)
-      !$omp do
+      !$omp parallel do default(none) shared(self, n_own, slack)
       do b = 1, self%n_blocks
          slack((b - 1)*block_slots + 1:min(b*block_slots, n_own)) = self%margins(b)%slack + self%margins(b)%unsure
       end do
-      !$omp end do
-      !$omp do
-      do i = n_own + 1, n_slots
-         slack(i) = slack(self%images%source(i - n_own))
-      end do
-      !$omp end do
-      !$omp end parallel
+      !$omp end parallel do
+      call fill_ghosts(self%images, as_scalar, slack)
       call take_slack(self%strips, slack)
       call take_slack(self%images%strips, slack)
    end subroutine spread_slack
@@ -291,9 +290,9 @@ contains
 
       strips%overall%slack = 0
       if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, slack)
+      !$omp parallel do default(none) shared(strips, slack) schedule(dynamic)
       do k = 1, strips%n
-         strips%extent(k)%slack = maxval([0.0_dp, slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)])
+         strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)))
       end do
       !$omp end parallel do
       strips%overall%slack = maxval(strips%extent(:strips%n)%slack)
@@ -320,7 +319,7 @@ contains
          call swap_states(predicted, p%stage(1))
       end if
       self%travel = travel
-      call spread_slack(self, p%n_own, p%n_slots, predicted%w)
+      call spread_slack(self, p%n_own, predicted%w)
       !$omp parallel default(none) shared(self, p, predicted, kernel, travel) private(i)
       !$omp do simd
       do i = 1, p%n_slots

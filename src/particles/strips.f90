@@ -178,7 +178,7 @@ contains
       end if
       if (.not. allocated(self%extent)) allocate (self%extent(self%n + self%n/8))
       !$omp parallel do default(none) shared(self, strip_start, x) &
-      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic, 8)
+      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic)
       do k = 1, self%n
          leftmost = huge(1.0_dp)
          rightmost = -huge(1.0_dp)
@@ -218,7 +218,7 @@ contains
       integer :: k, i, b, slot, here, first
 
       first = self%slot_start(1) - 1
-      !$omp parallel do default(none) shared(self, strip_start, x, first) private(i, b, slot, here) schedule(dynamic, 8)
+      !$omp parallel do default(none) shared(self, strip_start, x, first) private(i, b, slot, here) schedule(dynamic)
       do k = 1, self%n
          associate (start => self%bin_start(self%bin_offset(k) + 1:self%bin_offset(k) + self%bins(k) + 1))
             start = 0

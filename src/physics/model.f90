@@ -1,6 +1,6 @@
 !> The constants of the model in paper symbols, worked out once from the input.
 module model
-   use images, only: walls_t
+   use box, only: box_t
    use integrators, only: integrator_t
    use kernel, only: kernel_t
    use kinds, only: dp
@@ -13,7 +13,7 @@ module model
    !> Everything the right-hand sides need besides the state.
    type :: model_t
       type(kernel_t) :: kernel        !! W and its gradient
-      type(walls_t) :: walls          !! mirror planes
+      type(box_t) :: box              !! its sides at time 0
       real(dp) :: dx = 0              !! initial particle spacing
       real(dp) :: c0 = 0              !! sound speed
       real(dp) :: rho0 = 0            !! density at p = 0

@@ -2,9 +2,8 @@
 !!
 !! Source: sec. 2 of the paper; the works are summed with the stage states and the weights of the scheme (docs/equations.md).
 module runge_kutta
+   use box, only: bottom_wall, box_t, find_bounds, left_wall, reflect, right_wall, top_wall, wrap
    use candidates, only: block_slots
-   use crossing, only: outside, reflect, wrap
-   use images, only: bottom_wall, left_wall, right_wall, top_wall
    use flow, only: rates_t
    use integrators, only: most_stages
    use kinds, only: dp, sp
@@ -13,13 +12,20 @@ module runge_kutta
    implicit none
    private
 
-   public :: block_t, update_block
+   public :: block_t, moment_t, update_block
 
    ! The state of stage 1 is `base`; those of stages 2 and 3 are in p%stage(1) and (2). That of stage 4 is formed in `next` and
    ! changes places with stage 3's before it is used, so that the end of the step can always be written to `next`, block by block.
    integer, parameter, public :: stage_state(2:most_stages) = [1, 2, 2]   !! which of p%stage holds a stage's state
 
    real(dp), parameter, public :: fastest = 10   !! in c0; a particle that is faster has left the range
+
+   !> A stage of a step.
+   type :: moment_t
+      integer :: stage = 1   !! of the model's integrator
+      real(dp) :: dt = 0     !! [time] length of the step
+      type(box_t) :: box     !! at the stage's time
+   end type moment_t
 
    !> A block's part of a stage's state.
    type :: stage_t
@@ -47,33 +53,35 @@ module runge_kutta
 contains
 
    !> Adds the frozen terms and forces, takes the works, and moves the block on.
-   subroutine update_block(model, p, i0, n, stage, dt, rates, sums)
+   subroutine update_block(model, p, i0, n, moment, rates, sums)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n          !! slot before the block's first; slots
-      integer, intent(in) :: stage          !! of the model's integrator
-      real(dp), intent(in) :: dt
+      type(moment_t), intent(in) :: moment
       type(rates_t), intent(inout) :: rates !! inviscid, at the stage's state; on return with all terms
       type(block_t), intent(inout) :: sums
       type(stage_t) :: now
-      real(dp) :: weight
+      real(dp) :: weight, ahead
 
-      if (stage == 1) then
-         call take_stage(p%base, p%m, i0, n, now)
-      else
-         call take_stage(p%stage(stage_state(stage)), p%m, i0, n, now)
-      end if
-      weight = model%integrator%weight(stage)*dt
-      sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
-      call add_terms(model, p, i0, n, weight, now, rates, sums%work)
-      if (stage == model%integrator%stages) then
-         call end_step(model%integrator%share, weight, p, i0, n, now, rates)
-         call finish_block(model, p, i0, n, sums)
-      else if (stage < 3) then
-         call go_on(p%base, i0, n, model%integrator%ahead(stage)*dt, model%rho0, now, rates, p%stage(stage))
-      else
-         call go_on(p%base, i0, n, model%integrator%ahead(stage)*dt, model%rho0, now, rates, p%next)
-      end if
+      associate (stage => moment%stage, scheme => model%integrator)
+         if (stage == 1) then
+            call take_stage(p%base, p%m, i0, n, now)
+         else
+            call take_stage(p%stage(stage_state(stage)), p%m, i0, n, now)
+         end if
+         weight = scheme%weight(stage)*moment%dt
+         ahead = scheme%ahead(stage)*moment%dt
+         sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
+         call add_terms(model, p, i0, n, weight, now, rates, sums%work)
+         if (stage == scheme%stages) then
+            call end_step(scheme%share, weight, p, i0, n, now, rates)
+            call finish_block(model, moment%box%after((1 - scheme%time_of(stage))*moment%dt), p, i0, n, sums)
+         else if (stage < 3) then
+            call go_on(p%base, i0, n, ahead, model%rho0, now, rates, p%stage(stage))
+         else
+            call go_on(p%base, i0, n, ahead, model%rho0, now, rates, p%next)
+         end if
+      end associate
    end subroutine update_block
 
    ! A block's part of a state.
@@ -287,15 +295,16 @@ contains
    end function largest_change
 
    ! Walls, volume, extremes and range checks of a block's new state.
-   subroutine finish_block(model, p, i0, n, sums)
+   subroutine finish_block(model, box, p, i0, n, sums)
       type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box   ! at the end of the step
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
       integer :: i
       logical :: lost
 
-      call cross_sides(model, p, i0, n, sums)
+      call cross_sides(model, box, p, i0, n, sums)
       associate (next => p%next, i1 => i0 + 1, i2 => i0 + n)
          call set_volumes(n, model%rho0, p%m(i1:i2), next%s(i1:i2), next%w(i1:i2))
          call take_extremes(n, model%c0, model%rho0, p%m(i1:i2), next%u(i1:i2), next%v(i1:i2), next%s(i1:i2), sums, lost)
@@ -342,32 +351,40 @@ contains
    end function within_range
 
    ! Puts back what left the box.
-   pure subroutine cross_sides(model, p, i0, n, sums)
+   pure subroutine cross_sides(model, box, p, i0, n, sums)
       type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: before(2), moved(2), at_wall(2)
+      real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2)
       logical :: crossed
       integer :: i
 
+      call find_bounds(box, lower, upper)
       do i = i0 + 1, i0 + n
-         if (.not. outside(model%walls, p%next%x(i), p%next%y(i))) cycle
+         if (.not. (p%next%x(i) < lower(1) .or. p%next%x(i) > upper(1) .or. p%next%y(i) < lower(2) &
+                    .or. p%next%y(i) > upper(2))) cycle
          if (p%id(i) == 0) cycle
          before = [p%next%x(i), p%next%y(i)]
-         at_wall = min(max(before, model%walls%at([left_wall, bottom_wall])), model%walls%at([right_wall, top_wall]))
-         call reflect(model%walls, model%force_at(at_wall), p%next%x(i), p%next%y(i), p%next%u(i), p%next%v(i), crossed)
+         place = before
+         velocity = [p%next%u(i), p%next%v(i)]
+         at_wall = min(max(before, box%at([left_wall, bottom_wall])), box%at([right_wall, top_wall]))
+         call reflect(box, model%force_at(at_wall), place, velocity, crossed)
          if (crossed) then
-            moved = [p%next%x(i), p%next%y(i)] - before
             sums%crossings = sums%crossings + 1
-            sums%jump = max(sums%jump, hypot(moved(1), moved(2)))
+            sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
             ! What the uniform force gave is not in the positions, as gravity's energy is.
-            sums%work(4) = sums%work(4) + p%m(i)*dot_product(model%acceleration, moved)
+            sums%work(4) = sums%work(4) + p%m(i)*dot_product(model%acceleration, place - before)
          end if
-         if (any(model%walls%periodic)) then
-            call wrap(model%walls, p%next%x(i), p%next%y(i))
+         if (any(box%is_periodic([1, 2]))) then
+            call wrap(box, place)
             sums%wrapped = .true.
          end if
+         p%next%x(i) = place(1)
+         p%next%y(i) = place(2)
+         p%next%u(i) = velocity(1)
+         p%next%v(i) = velocity(2)
       end do
    end subroutine cross_sides
 

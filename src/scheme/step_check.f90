@@ -1,7 +1,7 @@
 !> Whether a run can go on from the result of a step.
 module step_check
    use errors, only: exit_numerics, failure
-   use images, only: bottom_wall, left_wall, right_wall, top_wall
+   use box, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -25,7 +25,7 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      associate (own => p%id(1:p%n_own) > 0, next => p%next, floor => model%walls%at(bottom_wall))
+      associate (own => p%id(1:p%n_own) > 0, next => p%next, floor => model%box%at(bottom_wall))
          if (run%scattered) then
             call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank after step ' &
                                //moment(run)//': '//particle(p, maxloc(abs(next%y(1:p%n_own) - floor), 1, own)) &
@@ -64,7 +64,7 @@ contains
       character(:), allocatable :: words
 
       words = '; a smaller cfl or a larger sound_speed may help'
-      associate (at => model%walls%at)
+      associate (at => model%box%at)
          if (x < at(left_wall) .or. x > at(right_wall) .or. y < at(bottom_wall) .or. y > at(top_wall)) &
             words = ', outside of &domain; close the open side it left by, or end the run before'
       end associate

@@ -10,13 +10,14 @@ module time_step
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
    use integrators, only: most_stages
-   use images, only: fill_image_copies, fill_image_gradients, fill_images, fill_no_slip
+   use image_laws, only: as_gradient, as_scalar
+   use images, only: fill_ghosts, fill_slip
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
-   use runge_kutta, only: block_t, stage_state, update_block
+   use runge_kutta, only: block_t, moment_t, stage_state, update_block
    use search_margins, only: lists_hold, lists_reach, plan_margins, watch_margins, widen_margins
    use timers, only: timers_t
    implicit none
@@ -93,8 +94,8 @@ contains
 
       call timers%start(phase_sort)
       if (run%step > 0 .and. lists_hold(near, run%dt)) then
-         call keep_order(near, p, model%walls, run%dt)
-         if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+         call keep_order(near, p, model%box%after(run%time), run%dt)
+         if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
       else
          expected = run%dt
          if (run%step == 0) expected = model%longest_step()
@@ -111,10 +112,10 @@ contains
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: span   !! time that lists shall last
 
-      call sort_particles(near, p, model%kernel, model%walls, model%dx, span, run%scattered)
+      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, span, run%scattered)
       if (run%scattered) return
       run%sorted = run%sorted + 1
-      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+      if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
       call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau, within_step=.false.)
    end subroutine find_neighbours
 
@@ -155,11 +156,23 @@ contains
          if (run%scattered) return
       end do
       call collect(model, run, last_time, blocks)
-      if (p%features%dissipation) &
-         p%dissipated(1:p%n_own) = p%dissipated(1:p%n_own) + run%dt*p%dissipating(1:p%n_own)
+      if (p%features%dissipation) call add_dissipated(p, run%dt)
       run%step = run%step + 1
       run%time = run%time + run%dt
    end subroutine advance
+
+   ! What each particle has dissipated in a step.
+   subroutine add_dissipated(p, dt)
+      type(particles_t), intent(inout) :: p
+      real(dp), intent(in) :: dt
+      integer :: i
+
+      !$omp parallel do default(none) shared(p, dt)
+      do i = 1, p%n_own
+         p%dissipated(i) = p%dissipated(i) + dt*p%dissipating(i)
+      end do
+      !$omp end parallel do
+   end subroutine add_dissipated
 
    ! Whether the lists, or lists that can be made anew of the images that there are, serve for a step.
    pure logical function in_reach(near, dt)
@@ -207,8 +220,14 @@ contains
          call begin_frozen_terms(model, p, near, b, blocks(b))
       end do
       !$omp end parallel do
-      if (p%features%diffusion) call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
-      if (model%dynamic) call fill_image_copies(near%images, p%n_own, p%alpha, p%delta)
+      if (p%features%diffusion) then
+         call fill_ghosts(near%images, as_gradient(model%box, 1), p%grad_x)
+         call fill_ghosts(near%images, as_gradient(model%box, 2), p%grad_y)
+      end if
+      if (model%dynamic) then
+         call fill_ghosts(near%images, as_scalar, p%alpha)
+         call fill_ghosts(near%images, as_scalar, p%delta)
+      end if
    end subroutine first_sums
 
    ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
@@ -221,6 +240,7 @@ contains
       type(timers_t), intent(inout) :: timers
       logical, intent(out) :: strayed
       real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
+      type(moment_t) :: moment
       integer :: stage
 
       if (near%age + run%dt - near%tau > near%travel) then
@@ -230,18 +250,19 @@ contains
       end if
       strayed = .false.
       do stage = 1, model%integrator%stages
+         moment = moment_t(stage, run%dt, model%box%after(run%time + model%integrator%time_of(stage)*run%dt))
          if (stage == 1) then
             call timers%start(phase_diffusion)
-            call first_stage(model, p, near, run%dt, blocks)
+            call first_stage(model, p, near, moment, blocks)
             if (.not. model%frozen) blocks%wall_power = model%integrator%weight(1)*blocks%wall_power
             call timers%stop(phase_diffusion)
          else
             call timers%start(phase_stages)
             if (stage == 4) call swap_states(p%next, p%stage(2))   ! see module runge_kutta
             if (model%frozen) then
-               call later_stage(model, p, near, stage, run%dt, blocks)
+               call later_stage(model, p, near, moment, blocks)
             else
-               call whole_stage(model, p, near, stage, run%dt, blocks)
+               call whole_stage(model, p, near, moment, blocks)
             end if
             call timers%stop(phase_stages)
          end if
@@ -281,23 +302,23 @@ contains
    end subroutine follow
 
    ! Completes the frozen terms and goes from `base` to the second stage's state.
-   subroutine first_stage(model, p, near, dt, blocks)
+   subroutine first_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
-      real(dp), intent(in) :: dt
+      type(moment_t), intent(in) :: moment
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
       integer :: b, i0, n
 
-      !$omp parallel do default(none) shared(model, p, near, dt, blocks) private(i0, n, rates) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, moment, blocks) private(i0, n, rates) schedule(dynamic)
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters
          call complete_frozen_terms(model, p, near, b, blocks(b))
          if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
          call take_kept(p%next, i0, n, rates)
-         call update_block(model, p, i0, n, 1, dt, rates, blocks(b))
+         call update_block(model, p, i0, n, moment, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine first_stage
@@ -314,50 +335,48 @@ contains
    end subroutine take_kept
 
    ! Evaluates the rates at a stage's state and forms the next stage's, or the end of the step.
-   subroutine later_stage(model, p, near, stage, dt, blocks)
+   subroutine later_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: stage     !! from 2 on
-      real(dp), intent(in) :: dt
+      type(moment_t), intent(in) :: moment   !! of stage 2 or later
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
       integer :: b, i0, n, now
 
-      now = stage_state(stage)
-      call fill_images(near%images, model%walls, p%n_own, p%stage(now))
-      !$omp parallel do default(none) shared(model, p, near, stage, now, dt, blocks) &
+      now = stage_state(moment%stage)
+      call fill_ghosts(near%images, moment%box, p%stage(now))
+      !$omp parallel do default(none) shared(model, p, near, moment, now, blocks) &
       !$omp private(i0, n, sums, rates) schedule(dynamic)
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters
          call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
          call flow_rates(model, p%stage(now), i0, n, sums, rates)
-         call update_block(model, p, i0, n, stage, dt, rates, blocks(b))
+         call update_block(model, p, i0, n, moment, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine later_stage
 
    ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them.
-   subroutine whole_stage(model, p, near, stage, dt, blocks)
+   subroutine whole_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
-      integer, intent(in) :: stage     !! from 2 on
-      real(dp), intent(in) :: dt
+      type(moment_t), intent(in) :: moment   !! of stage 2 or later
       type(block_t), intent(inout) :: blocks(:)
       type(block_t) :: of_stage(size(blocks))
       type(rates_t) :: rates
       type(state_t) :: kept                  ! rates of velocity and density: `next` may hold a stage's state
       integer :: b, i0, n, now
 
-      now = stage_state(stage)
+      now = stage_state(moment%stage)
       allocate (kept%u(p%capacity), kept%v(p%capacity), kept%s(p%capacity))
-      call fill_images(near%images, model%walls, p%n_own, p%stage(now))
+      call fill_ghosts(near%images, moment%box, p%stage(now))
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
-      if (p%features%no_slip) call fill_no_slip(near%images, model%walls, p)
+      if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
       call first_sums(model, p, near, of_stage)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
       do b = 1, near%n_blocks
@@ -366,15 +385,15 @@ contains
       !$omp end parallel do
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
-      blocks%wall_power = blocks%wall_power + model%integrator%weight(stage)*of_stage%wall_power
+      blocks%wall_power = blocks%wall_power + model%integrator%weight(moment%stage)*of_stage%wall_power
       blocks%largest_alpha = max(blocks%largest_alpha, of_stage%largest_alpha)
       blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
-      !$omp parallel do default(none) shared(model, p, near, stage, kept, dt, blocks) private(i0, n, rates) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, moment, kept, blocks) private(i0, n, rates) schedule(dynamic)
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters
          call take_kept(kept, i0, n, rates)
-         call update_block(model, p, i0, n, stage, dt, rates, blocks(b))
+         call update_block(model, p, i0, n, moment, rates, blocks(b))
       end do
       !$omp end parallel do
    end subroutine whole_stage

@@ -1,11 +1,13 @@
 !> One evaluation of all right-hand sides by the code's own procedures, in the order of the particles' numbers.
 module evaluation
+   use box, only: box_t
    use candidates, only: block_slots
    use first_sums, only: first_sums_t, pass_constant, sum_first
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
-   use images, only: fill_image_gradients, walls_t
+   use image_laws, only: as_gradient
+   use images, only: fill_ghosts
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
@@ -34,12 +36,13 @@ module evaluation
 contains
 
    !> Evaluates at the base state.
-   subroutine evaluate(model, p, near, found, gradient_walls)
+   subroutine evaluate(model, p, near, found, gradient_box)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(in) :: near
       type(evaluation_t), intent(out) :: found
-      type(walls_t), intent(in), optional :: gradient_walls   !! for the images' gradients, if not the model's
+      type(box_t), intent(in), optional :: gradient_box     !! for the images' gradients, if not the model's
+      type(box_t) :: box
       type(block_t), allocatable :: blocks(:)
       type(state_t) :: next
       integer :: b, l, i0, n
@@ -58,11 +61,10 @@ contains
          call evaluate_block(model, p, near, b, found)
       end do
       found%singular = sum(blocks%singular)
-      if (present(gradient_walls)) then
-         call fill_image_gradients(near%images, gradient_walls, p%n_own, p%grad_x, p%grad_y)
-      else
-         call fill_image_gradients(near%images, model%walls, p%n_own, p%grad_x, p%grad_y)
-      end if
+      box = model%box
+      if (present(gradient_box)) box = gradient_box
+      call fill_ghosts(near%images, as_gradient(box, 1), p%grad_x)
+      call fill_ghosts(near%images, as_gradient(box, 2), p%grad_y)
       do b = 1, near%n_blocks
          i0 = (b - 1)*block_slots
          n = nl*near%blocks(b)%n_clusters

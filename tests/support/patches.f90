@@ -1,7 +1,7 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
+   use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use candidates, only: block_clusters
-   use images, only: bottom_wall, left_wall, right_wall, top_wall, walls_t
    use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp, i8
@@ -49,7 +49,7 @@ contains
       between = lower + (upper - lower)*(real(self%state, dp)/2147483647.0_dp)
    end function between
 
-   !> Constants that differ from 1 where they could hide a missing factor; no walls, no gravity.
+   !> Constants that differ from 1 where they could hide a missing factor; no box, no gravity.
    type(model_t) function open_model() result(model)
       model%kernel = new_kernel(2*spacing)
       model%dx = spacing
@@ -67,23 +67,23 @@ contains
    type(model_t) function tank_model() result(model)
       model = open_model()
       model%gravity = 0.9_dp
-      model%walls%present([left_wall, right_wall, bottom_wall]) = .true.
-      model%walls%at = [0.0_dp, tank_width, floor_at, 0.0_dp]
-      model%walls%density_slope = [0.0_dp, -model%rho0*model%gravity/model%c0**2]
+      model%box%kind([left_wall, right_wall, bottom_wall]) = free_slip_wall
+      model%box%at = [0.0_dp, tank_width, floor_at, 0.0_dp]
+      model%box%density_slope = [0.0_dp, -model%rho0*model%gravity/model%c0**2]
    end function tank_model
 
-   !> No walls, no gravity, and all four sides of a box periodic.
+   !> No box, no gravity, and all four sides of a box periodic.
    type(model_t) function box_model() result(model)
       model = open_model()
-      model%walls%periodic = .true.
-      model%walls%at = [0.0_dp, tank_width, floor_at, floor_at + box_height]
+      model%box%kind = periodic_side
+      model%box%at = [0.0_dp, tank_width, floor_at, floor_at + box_height]
    end function box_model
 
    !> A floor and a lid, free slip, between periodic sides; no gravity.
    type(model_t) function channel_model() result(model)
       model = box_model()
-      model%walls%periodic = [.true., .false.]
-      model%walls%present([bottom_wall, top_wall]) = .true.
+      model%box%kind([left_wall, right_wall]) = periodic_side
+      model%box%kind([bottom_wall, top_wall]) = free_slip_wall
    end function channel_model
 
    !> Puts the paper's dynamic model in the place of constant delta; the model's alpha is then that of a real viscosity.
@@ -171,7 +171,7 @@ contains
 
       near%slack = 0.02_dp*model%dx
       if (present(slack)) near%slack = slack
-      call sort_particles(near, p, model%kernel, model%walls, model%dx, step_ahead, scattered)
+      call sort_particles(near, p, model%kernel, model%box, model%dx, step_ahead, scattered)
       if (scattered) error stop 'the test''s particles are too far from each other'
       call list_neighbours(near, p, model%kernel, 2*near%tau, within_step=.false.)
    end subroutine find_neighbours
@@ -216,68 +216,68 @@ contains
    end subroutine scatter
 
    !> The particles and all images that they could have, however far away: written from the definition.
-   type(points_t) function with_images(points, walls) result(both)
+   type(points_t) function with_images(points, box) result(both)
       type(points_t), intent(in) :: points
-      type(walls_t), intent(in) :: walls
+      type(box_t), intent(in) :: box
       integer :: wall, side
       logical :: there(4)
 
-      there = walls%present .or. [walls%periodic(1), walls%periodic(1), walls%periodic(2), walls%periodic(2)]
+      there = box%kind /= open_side
       both = points
       do wall = 1, 4
-         if (there(wall)) call append(both, image_at(points, walls, wall))
+         if (there(wall)) call append(both, image_at(points, box, wall))
       end do
       do side = left_wall, right_wall
          do wall = bottom_wall, top_wall
-            if (there(side) .and. there(wall)) call append(both, image_at(image_at(points, walls, side), walls, wall))
+            if (there(side) .and. there(wall)) call append(both, image_at(image_at(points, box, side), box, wall))
          end do
       end do
    end function with_images
 
    ! The points mirrored at one wall, or moved beyond one periodic side.
-   type(points_t) function image_at(points, walls, wall) result(image)
+   type(points_t) function image_at(points, box, wall) result(image)
       type(points_t), intent(in) :: points
-      type(walls_t), intent(in) :: walls
+      type(box_t), intent(in) :: box
       integer, intent(in) :: wall
 
       image = points
       select case (wall)
       case (left_wall, right_wall)
          image%vertical = wall
-         if (walls%periodic(1)) then
-            image%x = points%x + merge(-1, 1, wall == left_wall)*(walls%at(right_wall) - walls%at(left_wall))
+         if (box%is_periodic(1)) then
+            image%x = points%x + merge(-1, 1, wall == left_wall)*(box%at(right_wall) - box%at(left_wall))
             return
          end if
-         image%x = walls%at(wall) - (points%x - walls%at(wall))
+         image%x = box%at(wall) - (points%x - box%at(wall))
          image%u = -points%u
          image%sign_x = -points%sign_x
       case default
          image%horizontal = wall
-         if (walls%periodic(2)) then
-            image%y = points%y + merge(-1, 1, wall == bottom_wall)*(walls%at(top_wall) - walls%at(bottom_wall))
+         if (box%is_periodic(2)) then
+            image%y = points%y + merge(-1, 1, wall == bottom_wall)*(box%at(top_wall) - box%at(bottom_wall))
             return
          end if
-         image%y = walls%at(wall) - (points%y - walls%at(wall))
+         image%y = box%at(wall) - (points%y - box%at(wall))
          image%v = -points%v
          image%sign_y = -points%sign_y
       end select
-      image%s = points%s + walls%density_slope(1)*(image%x - points%x) + walls%density_slope(2)*(image%y - points%y)
+      image%s = points%s + box%density_slope(1)*(image%x - points%x) + box%density_slope(2)*(image%y - points%y)
    end function image_at
 
    !> The same points as viscosity sees them: beyond a no-slip wall of speed U, the velocity along it is 2 U - u.
-   type(points_t) function without_slip(points, walls) result(viscous)
+   type(points_t) function without_slip(points, box) result(viscous)
       type(points_t), intent(in) :: points   !! with images
-      type(walls_t), intent(in) :: walls
+      type(box_t), intent(in) :: box
       integer :: j
 
       viscous = points
       do j = 1, size(points%x)
          associate (v => points%vertical(j), h => points%horizontal(j))
             if (h > 0) then
-               if (walls%no_slip(h)) viscous%u(j) = 2*walls%speed(h) - points%u(j)
+               if (box%kind(h) == no_slip_wall) viscous%u(j) = 2*box%velocity(1, h) - points%u(j)
             end if
             if (v > 0) then
-               if (walls%no_slip(v)) viscous%v(j) = 2*walls%speed(v) - points%v(j)
+               if (box%kind(v) == no_slip_wall) viscous%v(j) = 2*box%velocity(2, v) - points%v(j)
             end if
          end associate
       end do

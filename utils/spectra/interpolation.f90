@@ -63,7 +63,7 @@ contains
       fluid%p%next%w(1:n) = snapshot%volume
       associate (model => fluid%model, near => fluid%near)
          near%slack = 0
-         call sort_particles(near, fluid%p, model%kernel, model%walls, model%dx, 0.0_dp, scattered)
+         call sort_particles(near, fluid%p, model%kernel, model%box, model%dx, 0.0_dp, scattered)
          if (scattered) then
             call problem%raise(exit_files, 'some particles are too far from the others to be sorted')
             return
