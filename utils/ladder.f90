@@ -164,7 +164,7 @@ contains
          new%next%u(:n) = p%base%u(:n)
          new%next%v(:n) = p%base%v(:n)
          new%next%s(:n) = p%base%s(:n)
-         new%next%w(:n) = p%base%w(:n)
+         new%next%volume(:n) = p%base%volume(:n)
       end associate
    end subroutine take_over
 

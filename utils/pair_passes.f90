@@ -39,7 +39,7 @@ contains
                listed = block%first(c + 1) - block%first(c)
                if (listed > 0) counted%clusters = counted%clusters + 1
                counted%candidates = counted%candidates + listed
-               counted%pairs = counted%pairs + pairs_of(model, p, block, c, (b - 1)*block_slots + (c - 1)*nl)
+               counted%pairs = counted%pairs + pairs_of(model, p, block, c, block%before + (c - 1)*nl)
             end do
          end associate
       end do
@@ -77,7 +77,7 @@ contains
             place = 1
             do c = 1, block%n_clusters
                first = block%first(c)
-               needed = (pairs_of(model, p, block, c, (b - 1)*block_slots + (c - 1)*nl) + nl - 1)/nl
+               needed = (pairs_of(model, p, block, c, block%before + (c - 1)*nl) + nl - 1)/nl
                block%slot(place:place + needed - 1) = block%slot(first:first + needed - 1)
                block%first(c) = place
                block%first_image(c) = place + needed
@@ -102,11 +102,11 @@ contains
 
       pass = first_pass(model, p%features)
       do b = 1, near%n_blocks
-         call sum_first(pass, model%kernel, near%blocks(b), p, near%images%source, (b - 1)*block_slots, first)
+         call sum_first(pass, model%kernel, near%blocks(b), p, near%images%source, near%blocks(b)%before, first)
          check = check + first%divergence(1)
       end do
       do b = 1, near%n_blocks
-         i0 = (b - 1)*block_slots
+         i0 = near%blocks(b)%before
          if (model%dynamic) then
             call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)
             check = check + eddy%diffusion(1)
@@ -117,7 +117,7 @@ contains
       end do
       do stage = 2, model%integrator%stages
          do b = 1, near%n_blocks
-            call sum_flow(model%kernel, near%blocks(b), p%base, (b - 1)*block_slots, flow)
+            call sum_flow(model%kernel, near%blocks(b), p%base, near%blocks(b)%before, flow)
             check = check + flow%divergence(1)
          end do
       end do

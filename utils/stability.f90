@@ -180,7 +180,7 @@ contains
          p%next%u(i) = noise*random(state)
          p%next%v(i) = noise*random(state)
          p%next%s(i) = noise*random(state)
-         p%next%w(i) = p%m(i)/(1 + p%next%s(i))
+         p%next%volume(i) = p%m(i)/(1 + p%next%s(i))
       end do
    end subroutine disturb
 

@@ -1,5 +1,6 @@
 !> The limits of the weakly-compressible model, eq. 4 and sec. 2 of the paper: Ma <= 0.1 and |rho - rho0|/rho0 <= 1 %.
 module limits
+   use equation_of_state, only: specific_pressure
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -36,7 +37,7 @@ contains
       associate (own => p%id(:p%n_own) > 0, u => p%base%u(:p%n_own), v => p%base%v(:p%n_own), s => p%base%s(:p%n_own))
          if (run%mach > max(mach_limit, grown*extremes%mach)) then
             extremes%mach = run%mach
-            extremes%fast = count(own .and. max(u**2 + v**2, model%c0**2*s/(model%rho0 + s)) > (run%mach*model%c0/2)**2)
+            extremes%fast = count(own .and. max(u**2 + v**2, specific_pressure(model%c0, model%rho0, s)) > (run%mach*model%c0/2)**2)
          end if
          if (run%variation > max(variation_limit, grown*extremes%variation)) then
             extremes%variation = run%variation

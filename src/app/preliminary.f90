@@ -6,6 +6,7 @@
 !! the first one found (docs/equations.md).
 module preliminary
    use derived_settings, only: set_reference_speed
+   use equation_of_state, only: specific_pressure
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use model, only: model_t
@@ -233,7 +234,7 @@ contains
       do i = 1, p%n_own
          if (p%id(i) == 0) cycle
          associate (u => p%base%u(i), v => p%base%v(i), s => p%base%s(i))
-            speeds(p%id(i)) = sqrt(max(u**2 + v**2, model%c0**2*s/(model%rho0 + s)))
+            speeds(p%id(i)) = sqrt(max(u**2 + v**2, specific_pressure(model%c0, model%rho0, s)))
          end associate
       end do
    end subroutine speeds_of

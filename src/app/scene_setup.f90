@@ -153,7 +153,7 @@ contains
                p%next%u(slot) = velocity(1)
                p%next%v(slot) = velocity(2)
                p%next%s(slot) = pressure/model%c0**2
-               p%next%w(slot) = sites%area(i)
+               p%next%volume(slot) = sites%area(i)
                p%m(slot) = (model%rho0 + p%next%s(slot))*sites%area(i)
             end do
          end associate

@@ -3,15 +3,15 @@
 !! Source: eqs. 10-13. E_K + E_P + E_C + Q_alpha + Q_delta - W_s - W_f stays what it was at t = 0 in the semi-discrete
 !! system; what is left is the error of the time integration.
 module energy
+   use exact_sum, only: exact_sum_t
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
+   use strips, only: group_slots
    implicit none
    private
 
    public :: energies_t, measure_energies, elastic_energy
-
-   integer, parameter :: block_slots = 512   !! slots that a partial sum goes over, so that threads don't matter
 
    !> Energies per unit of the third dimension.
    type :: energies_t
@@ -32,29 +32,40 @@ contains
    end function total
 
    !> Energies of the base state.
+   !!
+   !! Exact sums over groups of slots, which are parts of a strip: nothing but the particles matters.
    subroutine measure_energies(model, p, energies)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(energies_t), intent(out) :: energies
-      real(dp), allocatable :: partial(:, :)
-      integer :: b, i, n_blocks
+      type(exact_sum_t) :: sums(3), mine(3)   ! kinetic, potential, elastic/c0**2
+      real(dp) :: part(3)
+      integer :: g, i, k
 
-      n_blocks = (p%n_own + block_slots - 1)/block_slots
-      allocate (partial(3, n_blocks))
-      !$omp parallel do default(none) shared(model, p, partial, n_blocks) private(i)
-      do b = 1, n_blocks
-         partial(:, b) = 0
-         do i = (b - 1)*block_slots + 1, min(b*block_slots, p%n_own)
+      !$omp parallel default(none) shared(model, p, sums) private(mine, part, i, k)
+      mine = exact_sum_t()
+      !$omp do
+      do g = 1, p%n_own/group_slots
+         part = 0
+         do i = (g - 1)*group_slots + 1, g*group_slots
             if (p%id(i) == 0) cycle
-            partial(1, b) = partial(1, b) + p%m(i)*(p%base%u(i)**2 + p%base%v(i)**2)/2
-            partial(2, b) = partial(2, b) + p%m(i)*potential_of(model, p%base%x(i), p%base%y(i))
-            partial(3, b) = partial(3, b) + p%m(i)*elastic_energy(p%base%s(i)/model%rho0)
+            part = part + p%m(i)*[(p%base%u(i)**2 + p%base%v(i)**2)/2, potential_of(model, p%base%x(i), p%base%y(i)), &
+                                  elastic_energy(p%base%s(i)/model%rho0)]
+         end do
+         do k = 1, 3
+            call mine(k)%add(part(k))
          end do
       end do
-      !$omp end parallel do
-      energies%kinetic = sum(partial(1, :))
-      energies%potential = sum(partial(2, :))
-      energies%elastic = model%c0**2*sum(partial(3, :))
+      !$omp end do nowait
+      !$omp critical
+      do k = 1, 3
+         call sums(k)%add_sum(mine(k))
+      end do
+      !$omp end critical
+      !$omp end parallel
+      energies%kinetic = sums(1)%value()
+      energies%potential = sums(2)%value()
+      energies%elastic = model%c0**2*sums(3)%value()
    end subroutine measure_energies
 
    ! Of a unit of mass: of gravity from y = 0, of the central force from its centre.

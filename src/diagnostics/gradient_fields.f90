@@ -4,7 +4,6 @@
 !! du_a/dx_b = sum_j (u_j - u_i)_a (L_i grad W)_b V_j is exact for velocities linear in x and y; particles whose
 !! matrix L is singular have none.
 module gradient_fields
-   use candidates, only: block_slots
    use eddy, only: eddy_coefficients, strain_rate, velocity_gradient, velocity_gradient_t
    use first_sums, only: first_sums_t, pass_dynamic, sum_first
    use kinds, only: dp
@@ -52,7 +51,7 @@ contains
       allocate (fields%vorticity(p%n_own), fields%strain(p%n_own))
       !$omp parallel do default(none) shared(model, p, near, fields) private(sums) schedule(dynamic)
       do b = 1, near%n_blocks
-         associate (block => near%blocks(b), i0 => (b - 1)*block_slots)
+         associate (block => near%blocks(b), i0 => near%blocks(b)%before)
             call sum_first(pass_dynamic, model%kernel, block, p, near%images%source, i0, sums)
             if (p%features%no_slip) call sum_jump_gradient(model%kernel, block, p, i0, sums)
             call take_fields(model%kernel%gradient_factor, sums, nl*block%n_clusters, fields%vorticity(i0 + 1:), &
@@ -115,7 +114,7 @@ contains
       block%delta%least = huge(1.0_dp)
       do i = first, last
          if (p%id(i) == 0) cycle
-         block%enstrophy = block%enstrophy + fields%vorticity(i)**2*p%base%w(i)
+         block%enstrophy = block%enstrophy + fields%vorticity(i)**2*p%base%volume(i)
          call eddy_coefficients(model, fields%strain(i), alpha, delta)
          call include_value(block%alpha, alpha)
          call include_value(block%delta, delta)

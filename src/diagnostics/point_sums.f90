@@ -35,7 +35,7 @@ contains
          do j = ranges%first(k), ranges%last(k)
             squared = (p%base%x(j) - x)**2 + (p%base%y(j) - y)**2
             if (squared >= model%kernel%support**2) cycle
-            share = kernel_value(model%kernel, sqrt(squared))*p%base%w(j)
+            share = kernel_value(model%kernel, sqrt(squared))*p%base%volume(j)
             volume = volume + share
             pressure = pressure + share*p%base%s(j)
          end do

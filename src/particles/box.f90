@@ -22,9 +22,9 @@ module box
    !> The sides in the order left, right, bottom, top, at one time.
    type :: box_t
       integer :: kind(4) = open_side
-      real(dp) :: at(4) = 0                !! [length] x of left and right, y of bottom and top
-      real(dp) :: velocity(2, 4) = 0       !! [length/time] of a wall's surface
-      real(dp) :: density_slope(2) = 0     !! [mass/length^3] rho0 g/c0**2, the gradient of rho across walls; 0 for the pure mirror
+      real(dp) :: at(4) = 0                !! [m] x of left and right, y of bottom and top
+      real(dp) :: velocity(2, 4) = 0       !! [m/s] of a wall's surface
+      real(dp) :: density_slope(2) = 0     !! [kg/m4] rho0 g/c0**2, the gradient of rho across walls; 0 for the pure mirror
    contains
       procedure :: after
       procedure :: normal_velocity
@@ -44,13 +44,13 @@ contains
    !> The box some time later; all sides move uniformly.
    pure type(box_t) function after(self, time) result(later)
       class(box_t), intent(in) :: self
-      real(dp), intent(in) :: time   !! [time]
+      real(dp), intent(in) :: time   !! [s]
 
       later = self
       later%at = self%at + time*self%normal_velocity()
    end function after
 
-   !> Velocity of each side along the axis that it is across [length/time].
+   !> Velocity of each side along the axis that it is across [m/s].
    pure function normal_velocity(self) result(velocity)
       class(box_t), intent(in) :: self
       real(dp) :: velocity(4)
@@ -105,7 +105,7 @@ contains
    !! particle that is too slow even to reach the wall is put there.
    pure subroutine reflect(box, force, place, velocity, crossed)
       type(box_t), intent(in) :: box
-      real(dp), intent(in) :: force(2)             !! gravity and all else that acts at the wall [length/time^2]
+      real(dp), intent(in) :: force(2)             !! gravity and all else that acts at the wall [m/s2]
       real(dp), intent(inout) :: place(2), velocity(2)
       logical, intent(out) :: crossed
       real(dp) :: relative

@@ -22,7 +22,7 @@ module images
       integer, allocatable :: source(:)    !! (n) slot of the source
       integer, allocatable :: kind(:)      !! (n) of module image_laws
       type(strips_t) :: strips             !! where to find them
-      integer, allocatable, private :: unsorted_source(:), unsorted_kind(:), used(:)
+      integer, allocatable, private :: unsorted_source(:), unsorted_kind(:), number(:)
       real(dp), allocatable, private :: x(:), y(:)
    contains
       procedure :: bytes => images_bytes
@@ -78,7 +78,7 @@ contains
          call look_at(self, box, p, tau, travel, reach, b, .true., k)
       end do
       !$omp end parallel do
-      call sort_into_strips(self%strips, n, self%used(1:n), self%x(1:n), self%y(1:n), p%n_own + 1, .false.)
+      call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), p%n_own + 1, .false.)
       !$omp parallel do default(none) shared(self, n) private(i)
       do k = 1, n
          i = self%strips%point_of(k)
@@ -130,7 +130,7 @@ contains
       self%unsorted_kind(n) = k
       self%x(n) = place(1)
       self%y(n) = place(2)
-      self%used(n) = 1
+      self%number(n) = n
    end subroutine put
 
    ! The numbers that there are need not be kept.
@@ -141,11 +141,11 @@ contains
 
       if (allocated(self%source)) then
          if (n <= size(self%source)) return
-         deallocate (self%source, self%kind, self%unsorted_source, self%unsorted_kind, self%used, self%x, self%y)
+         deallocate (self%source, self%kind, self%unsorted_source, self%unsorted_kind, self%number, self%x, self%y)
       end if
       larger = n + n/8
       allocate (self%source(larger), self%kind(larger), self%unsorted_source(larger), self%unsorted_kind(larger), &
-                self%used(larger), self%x(larger), self%y(larger))
+                self%number(larger), self%x(larger), self%y(larger))
    end subroutine make_room
 
    !> Bytes that all arrays take.
@@ -179,7 +179,7 @@ contains
          state%v(j) = image_of(velocity(2), kind, state%v(i))
          state%s(j) = state%s(i) + box%density_slope(1)*(state%x(j) - state%x(i)) &
                       + box%density_slope(2)*(state%y(j) - state%y(i))
-         state%w(j) = state%w(i)
+         state%volume(j) = state%volume(i)
       end do
       !$omp end parallel do
    end subroutine fill_state

@@ -5,12 +5,13 @@
 !! lists are to hold, and allows for accelerations by a slack of each block; the time step verifies both, and has lists made again
 !! in time.
 module neighbours
-   use candidates, only: block_groups, block_slots, candidates_t, list_group, trim_lists
+   use candidates, only: block_slots, candidates_t, list_group, trim_lists
    use box, only: bottom_wall, box_t
    use image_laws, only: as_scalar
    use images, only: fill_ghosts, images_t, list_images
    use kernel, only: kernel_t
    use kinds, only: dp, i8, sp
+   use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
@@ -42,7 +43,6 @@ module neighbours
       real(dp) :: image_slack = 0    !! that images were made for: no block may have more
       real(dp) :: stray = 0     !! largest of all blocks
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
-      integer :: n_groups = 0
       integer :: n_blocks = 0
       type(strips_t) :: strips               !! of the own slots
       type(images_t) :: images               !! behind the own slots
@@ -94,10 +94,10 @@ contains
       if (scattered) return
       call permute(self, p)
       self%image_slack = max(self%slack, image_slack*kernel%support)
+      call lay_out_blocks(self)
       call set_margins(self, p)
       self%age = 0
       self%stray = 0
-      self%n_groups = p%n_own/group_slots
       call measure_strips(self%strips, p%base)
       self%images%strips%height = self%strips%height
       self%images%strips%bin_width = dx   ! images stand in narrow stripes far apart, and many bins are empty
@@ -152,27 +152,27 @@ contains
             p%base%y(i) = p%next%y(old)
             p%base%u(i) = p%next%u(old)
             p%base%v(i) = p%next%v(old)
-            p%stage(1)%w(i) = sqrt((p%next%u(old) - p%sorted_u(old))**2 + (p%next%v(old) - p%sorted_v(old))**2)
+            p%stage(1)%volume(i) = sqrt((p%next%u(old) - p%sorted_u(old))**2 + (p%next%v(old) - p%sorted_v(old))**2)
             p%base%s(i) = p%next%s(old)
-            p%base%w(i) = p%next%w(old)
-            p%stage(2)%w(i) = p%m(old)
+            p%base%volume(i) = p%next%volume(old)
+            p%stage(2)%volume(i) = p%m(old)
             p%sorted_id(i) = p%id(old)
          else
             p%base%x(i) = far_away
             p%base%y(i) = far_away
             p%base%u(i) = 0
             p%base%v(i) = 0
-            p%stage(1)%w(i) = 0
+            p%stage(1)%volume(i) = 0
             p%base%s(i) = 0
-            p%base%w(i) = 0
-            p%stage(2)%w(i) = 0
+            p%base%volume(i) = 0
+            p%stage(2)%volume(i) = 0
             p%sorted_id(i) = 0
          end if
       end do
       !$omp end parallel do
       call move_alloc(p%m, spare)
-      call move_alloc(p%stage(2)%w, p%m)
-      call move_alloc(spare, p%stage(2)%w)
+      call move_alloc(p%stage(2)%volume, p%m)
+      call move_alloc(spare, p%stage(2)%volume)
       call move_alloc(p%id, spare_id)
       call move_alloc(p%sorted_id, p%id)
       call move_alloc(spare_id, p%sorted_id)
@@ -196,26 +196,43 @@ contains
       call move_alloc(spare, p%dissipating)
    end subroutine permute_dissipated
 
+   ! Blocks of slots, each within a strip, so that what is summed up in one does not depend on the strips beside its own.
+   subroutine lay_out_blocks(self)
+      type(neighbours_t), intent(inout) :: self
+      integer :: b, k, before
+
+      associate (start => self%strips%slot_start(:self%strips%n + 1))
+         self%n_blocks = sum((start(2:) - start(:self%strips%n) + block_slots - 1)/block_slots)
+         if (allocated(self%blocks)) then
+            if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
+         end if
+         if (.not. allocated(self%blocks)) &
+            allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
+         b = 0
+         do k = 1, self%strips%n
+            do before = start(k) - 1, start(k + 1) - 2, block_slots
+               b = b + 1
+               self%blocks(b)%before = before
+               self%blocks(b)%n_clusters = min(block_slots, start(k + 1) - 1 - before)/nl
+            end do
+         end do
+      end associate
+   end subroutine lay_out_blocks
+
    ! The slack of each block, for the accelerations that its particles had.
    subroutine set_margins(self, p)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
       integer :: b, i1, i2
 
-      self%n_blocks = (p%n_own + block_slots - 1)/block_slots
-      if (allocated(self%blocks)) then
-         if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
-      end if
-      if (.not. allocated(self%blocks)) &
-         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
       !$omp parallel do default(none) shared(self, p) private(i1, i2)
       do b = 1, self%n_blocks
-         i1 = (b - 1)*block_slots + 1
-         i2 = min(b*block_slots, p%n_own)
+         i1 = self%blocks(b)%before + 1
+         i2 = self%blocks(b)%before + nl*self%blocks(b)%n_clusters
          self%margins(b) = margin_t(slack=self%slack)
          if (self%age > 0) &
             self%margins(b)%slack = max(self%slack, min(self%image_slack, &
-                                                        self%slack_time_2*maxval(p%stage(1)%w(i1:i2))/self%age))
+                                                        self%slack_time_2*maxval(p%stage(1)%volume(i1:i2))/self%age))
          p%sorted_u(i1:i2) = real(p%base%u(i1:i2), sp)
          p%sorted_v(i1:i2) = real(p%base%v(i1:i2), sp)
       end do
@@ -267,15 +284,16 @@ contains
    end subroutine span_of
 
    ! The slack of each slot, into `slack`, of each strip and of all. An image has its source's.
-   subroutine spread_slack(self, n_own, slack)
+   subroutine spread_slack(self, slack)
       type(neighbours_t), intent(inout) :: self
-      integer, intent(in) :: n_own
       real(dp), contiguous, intent(inout) :: slack(:)   !! (n_slots)
       integer :: b
 
-      !$omp parallel do default(none) shared(self, n_own, slack)
+      !$omp parallel do default(none) shared(self, slack)
       do b = 1, self%n_blocks
-         slack((b - 1)*block_slots + 1:min(b*block_slots, n_own)) = self%margins(b)%slack + self%margins(b)%unsure
+         associate (block => self%blocks(b))
+            slack(block%before + 1:block%before + nl*block%n_clusters) = self%margins(b)%slack + self%margins(b)%unsure
+         end associate
       end do
       !$omp end parallel do
       call fill_ghosts(self%images, as_scalar, slack)
@@ -314,12 +332,12 @@ contains
       integer :: b, i
 
       if (within_step) then
-         allocate (predicted%x(p%capacity), predicted%y(p%capacity), predicted%w(p%capacity), source=0.0_dp)
+         allocate (predicted%x(p%capacity), predicted%y(p%capacity), predicted%volume(p%capacity), source=0.0_dp)
       else
          call swap_states(predicted, p%stage(1))
       end if
       self%travel = travel
-      call spread_slack(self, p%n_own, predicted%w)
+      call spread_slack(self, predicted%volume)
       !$omp parallel default(none) shared(self, p, predicted, kernel, travel) private(i)
       !$omp do simd
       do i = 1, p%n_slots
@@ -347,16 +365,17 @@ contains
       type(extent_t) :: group
       type(ranges_t) :: own, images
       integer, allocatable :: found(:)
-      integer :: g, i0
+      integer :: g, i0, n_groups
 
-      do g = 1, min(block_groups, self%n_groups - (b - 1)*block_groups)
-         i0 = (b - 1)*block_slots + (g - 1)*group_slots
+      n_groups = nl*self%blocks(b)%n_clusters/group_slots
+      do g = 1, n_groups
+         i0 = self%blocks(b)%before + (g - 1)*group_slots
          group = group_extent(id, predicted, base, i0)
          own%n = 0
          images%n = 0
          call add_ranges(self%strips, group, support, travel, own)
          call add_ranges(self%images%strips, group, support, travel, images)
-         call list_group(self%blocks(b), g, own, images, n, predicted%x, predicted%y, base%u, base%v, predicted%w, i0, group, &
+         call list_group(self%blocks(b), g, own, images, n, predicted%x, predicted%y, base%u, base%v, predicted%volume, i0, group, &
                          support, travel, found)
       end do
       call trim_lists(self%blocks(b))
@@ -376,7 +395,7 @@ contains
          group%slowest = min(group%slowest, [base%u(i), base%v(i)])
          group%fastest = max(group%fastest, [base%u(i), base%v(i)])
       end do
-      group%slack = predicted%w(i0 + 1)
+      group%slack = predicted%volume(i0 + 1)
    end function group_extent
 
    !> Slots, own and images, that may be closer than `reach` to a point in the base state.

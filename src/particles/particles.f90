@@ -14,10 +14,10 @@ module particles
 
    !> What the equations advance, for every slot; also the state of a Runge-Kutta stage.
    type :: state_t
-      real(dp), allocatable :: x(:), y(:)   !! (n_slots) position
-      real(dp), allocatable :: u(:), v(:)   !! (n_slots) velocity
-      real(dp), allocatable :: s(:)         !! (n_slots) rho - rho0, so that p = c0**2 s without cancellation
-      real(dp), allocatable :: w(:)         !! (n_slots) volume m/rho (area in two dimensions)
+      real(dp), allocatable :: x(:), y(:)   !! [m] (n_slots) position
+      real(dp), allocatable :: u(:), v(:)   !! [m/s] (n_slots) velocity
+      real(dp), allocatable :: s(:)         !! [kg/m3] (n_slots) rho - rho0, so that p = c0**2 s without cancellation
+      real(dp), allocatable :: volume(:)    !! [m2] (n_slots) volume m/rho (area in two dimensions)
    end type state_t
 
    !> What particles carry only where a scene needs it.
@@ -40,18 +40,18 @@ module particles
       type(state_t) :: base        !! state at the start of the step
       type(state_t) :: stage(2)    !! states of stages
       type(state_t) :: next        !! state at the end of the step; until then a stage's, or rates
-      real(dp), allocatable :: m(:)               !! (n_slots) mass, own slots only
+      real(dp), allocatable :: m(:)               !! [kg/m] (n_slots) mass, own slots only
       integer, allocatable :: id(:)               !! (n_slots) 1..n for real particles, 0 for dummies
       integer, allocatable :: sorted_id(:)        !! (n_slots) scratch of the sort
-      real(sp), allocatable :: sorted_u(:), sorted_v(:)   !! (n_slots) velocity when the particles were sorted, own slots only
-      real(dp), allocatable :: visc_x(:), visc_y(:)   !! (n_slots) frozen viscous acceleration
-      real(dp), allocatable :: diff_s(:)          !! (n_slots) frozen density-diffusion rate
-      real(dp), allocatable :: grad_x(:), grad_y(:)   !! (n_slots) G, renormalised gradient of rho
-      real(dp), allocatable :: alpha(:), delta(:)     !! (n_slots) alpha_i, delta_i; no-slip walls need alpha, if only 0
-      real(dp), allocatable :: jump_u(:), jump_v(:)   !! (n_slots) no-slip less free-slip velocity of an image
-      real(dp), allocatable :: wall_u(:), wall_v(:)   !! (n_slots) velocity of an image's no-slip wall
-      real(dp), allocatable :: dissipated(:)          !! (n_slots) energy, since the start
-      real(dp), allocatable :: dissipating(:)         !! (n_slots) power; scratch of the sort
+      real(sp), allocatable :: sorted_u(:), sorted_v(:)   !! [m/s] (n_slots) velocity when the particles were sorted, own slots only
+      real(dp), allocatable :: visc_x(:), visc_y(:)   !! [m/s2] (n_slots) frozen viscous acceleration
+      real(dp), allocatable :: diff_s(:)          !! [kg/m3/s] (n_slots) frozen density-diffusion rate
+      real(dp), allocatable :: grad_x(:), grad_y(:)   !! [kg/m4] (n_slots) G, renormalised gradient of rho
+      real(dp), allocatable :: alpha(:), delta(:)     !! [1] (n_slots) alpha_i, delta_i; no-slip walls need alpha, if only 0
+      real(dp), allocatable :: jump_u(:), jump_v(:)   !! [m/s] (n_slots) no-slip less free-slip velocity of an image
+      real(dp), allocatable :: wall_u(:), wall_v(:)   !! [m/s] (n_slots) velocity of an image's no-slip wall
+      real(dp), allocatable :: dissipated(:)          !! [J/m] (n_slots) energy, since the start
+      real(dp), allocatable :: dissipating(:)         !! [W/m] (n_slots) power; scratch of the sort
    contains
       procedure :: bytes => particles_bytes
    end type particles_t
@@ -112,7 +112,7 @@ contains
       call swap(one%u, other%u)
       call swap(one%v, other%v)
       call swap(one%s, other%s)
-      call swap(one%w, other%w)
+      call swap(one%volume, other%volume)
    end subroutine swap_states
 
    pure subroutine swap(one, other)
@@ -148,7 +148,7 @@ contains
       call grow(state%x, capacity, far_away, bytes)
       call grow(state%y, capacity, far_away, bytes)
       call grow_pair(state%u, state%v, capacity, bytes)
-      call grow_pair(state%s, state%w, capacity, bytes)
+      call grow_pair(state%s, state%volume, capacity, bytes)
    end subroutine grow_state
 
    subroutine grow_pair(first, second, capacity, bytes)

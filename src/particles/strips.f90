@@ -3,7 +3,7 @@
 !!
 !! Strips are half a search radius high. Inside a strip, points are counting-sorted in x by bins much narrower
 !! than the particle spacing, so the slots that a group of particles can reach are one range a strip.
-!! The order of slots is that of strip, bin and previous slot, whatever the number of threads.
+!! The order of slots is that of strip, bin and number of the point: neither threads nor where a point was before matter.
 module strips
    use, intrinsic :: iso_fortran_env, only: int64
    use kinds, only: dp, i8
@@ -56,28 +56,28 @@ contains
 
    !> Sorts points into strips; slot `first_slot + k - 1` then belongs to point `point_of(k)`.
    !!
-   !! Points with used = 0 are left out. With more than `max_strips` strips nothing is done and
+   !! Points with number 0 are left out. With more than `max_strips` strips nothing is done and
    !! n = -1: some point is absurdly far from the others.
-   subroutine sort_into_strips(self, n_points, used, x, y, first_slot, whole_groups)
+   subroutine sort_into_strips(self, n_points, number, x, y, first_slot, whole_groups)
       type(strips_t), intent(inout) :: self      !! height and bin_width are set by the caller
       integer, intent(in) :: n_points
-      integer, intent(in) :: used(n_points)      !! nonzero for points that take part
+      integer, intent(in) :: number(n_points)    !! of each point, no two alike
       real(dp), intent(in) :: x(n_points), y(n_points)
       integer, intent(in) :: first_slot
       logical, intent(in) :: whole_groups        !! pad each strip to whole groups
       integer, allocatable :: strip_start(:)
 
-      call assign_strips(self, n_points, used, y)
+      call assign_strips(self, n_points, number, y)
       if (self%n < 0) return
       call list_by_strip(self, n_points, strip_start)
       call lay_out(self, strip_start, x, first_slot, whole_groups)
-      call fill_bins(self, strip_start, x)
+      call fill_bins(self, strip_start, number, x)
    end subroutine sort_into_strips
 
    ! The strip of each point; 0 for points that take no part.
-   subroutine assign_strips(self, n_points, used, y)
+   subroutine assign_strips(self, n_points, number, y)
       type(strips_t), intent(inout) :: self
-      integer, intent(in) :: n_points, used(n_points)
+      integer, intent(in) :: n_points, number(n_points)
       real(dp), intent(in) :: y(n_points)
       integer, parameter :: max_strips = 4000000
       real(dp) :: lowest, highest
@@ -85,9 +85,9 @@ contains
 
       lowest = huge(1.0_dp)
       highest = -huge(1.0_dp)
-      !$omp parallel do default(none) shared(n_points, used, y) reduction(min:lowest) reduction(max:highest)
+      !$omp parallel do default(none) shared(n_points, number, y) reduction(min:lowest) reduction(max:highest)
       do i = 1, n_points
-         if (used(i) == 0) cycle
+         if (number(i) == 0) cycle
          lowest = min(lowest, y(i))
          highest = max(highest, y(i))
       end do
@@ -100,10 +100,10 @@ contains
          self%n = int((highest - self%bottom)/self%height) + 1
       end if
       call resize(self%strip_of, n_points)
-      !$omp parallel do default(none) shared(self, n_points, used, y)
+      !$omp parallel do default(none) shared(self, n_points, number, y)
       do i = 1, n_points
          self%strip_of(i) = 0
-         if (used(i) /= 0) self%strip_of(i) = min(self%n, int((y(i) - self%bottom)/self%height) + 1)
+         if (number(i) /= 0) self%strip_of(i) = min(self%n, int((y(i) - self%bottom)/self%height) + 1)
       end do
       !$omp end parallel do
    end subroutine assign_strips
@@ -210,15 +210,15 @@ contains
       call resize(self%point_of, self%n_slots)
    end subroutine lay_out
 
-   ! Counting sort in x inside each strip.
-   subroutine fill_bins(self, strip_start, x)
+   ! Counting sort in x inside each strip, and by number inside each bin.
+   subroutine fill_bins(self, strip_start, number, x)
       type(strips_t), intent(inout) :: self
-      integer, intent(in) :: strip_start(:)
+      integer, intent(in) :: strip_start(:), number(:)
       real(dp), intent(in) :: x(:)
       integer :: k, i, b, slot, here, first
 
       first = self%slot_start(1) - 1
-      !$omp parallel do default(none) shared(self, strip_start, x, first) private(i, b, slot, here) schedule(dynamic)
+      !$omp parallel do default(none) shared(self, strip_start, number, x, first) private(i, b, slot, here) schedule(dynamic)
       do k = 1, self%n
          associate (start => self%bin_start(self%bin_offset(k) + 1:self%bin_offset(k) + self%bins(k) + 1))
             start = 0
@@ -243,10 +243,38 @@ contains
                start(b) = start(b - 1)
             end do
             start(1) = self%slot_start(k)
+            do b = 1, self%bins(k)
+               if (start(b + 1) - start(b) > 1) call put_in_order(number, self%point_of(start(b) - first:start(b + 1) - 1 - first))
+            end do
          end associate
       end do
       !$omp end parallel do
    end subroutine fill_bins
+
+   ! Points in the order of their numbers: Shell's sort, for bins of few points and, where points are scattered, of many.
+   pure subroutine put_in_order(number, points)
+      integer, intent(in) :: number(:)
+      integer, contiguous, intent(inout) :: points(:)
+      integer :: gap, i, j, held
+
+      gap = 1
+      do while (3*gap < size(points))
+         gap = 3*gap + 1
+      end do
+      do while (gap > 0)
+         do i = gap + 1, size(points)
+            held = points(i)
+            j = i
+            do while (j > gap)
+               if (number(points(j - gap)) < number(held)) exit
+               points(j) = points(j - gap)
+               j = j - gap
+            end do
+            points(j) = held
+         end do
+         gap = gap/3
+      end do
+   end subroutine put_in_order
 
    ! Bin of abscissa x in strip k, clamped to the strip's bins.
    pure integer function bin(self, k, x)

@@ -21,21 +21,21 @@ contains
       type(candidates_t), intent(in) :: block
       type(particles_t), intent(in) :: p      !! base state and G of all slots
       integer, intent(in) :: i0               !! slot before the block's first
-      real(dp), intent(inout) :: neighbour_gradient(block_slots)   !! sum_j G_j . r_ji t**3 V_j
+      real(dp), intent(inout) :: neighbour_gradient(block_slots)   !! [kg/m] sum_j G_j . r_ji t**3 V_j
       integer :: c, k
 
       do c = 1, block%n_clusters
          k = (c - 1)*nl
          call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
-                        size(p%base%x), p%base%x, p%base%y, p%base%w, p%grad_x, p%grad_y, i0 + k, kernel%inverse_support, &
+                        size(p%base%x), p%base%x, p%base%y, p%base%volume, p%grad_x, p%grad_y, i0 + k, kernel%inverse_support, &
                         neighbour_gradient(k + 1:k + nl))
       end do
    end subroutine sum_diffusion
 
    ! Explicit shapes and accumulators of fixed length keep the sums in vector registers.
-   pure subroutine lane_loop(n_near, near, n, x, y, w, gx, gy, i0, inverse_support, neighbour_gradient)
+   pure subroutine lane_loop(n_near, near, n, x, y, volume, gx, gy, i0, inverse_support, neighbour_gradient)
       integer, intent(in) :: n_near, near(n_near), n, i0
-      real(dp), intent(in) :: x(n), y(n), w(n), gx(n), gy(n), inverse_support
+      real(dp), intent(in) :: x(n), y(n), volume(n), gx(n), gy(n), inverse_support
       real(dp), intent(out) :: neighbour_gradient(nl)
       real(dp) :: xi(nl), yi(nl), total(nl)
       real(dp) :: dx, dy, g, unused
@@ -50,7 +50,7 @@ contains
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
-            call pair(dx, dy, inverse_support, w(j), g, unused)
+            call pair(dx, dy, inverse_support, volume(j), g, unused)
             total(l) = total(l) + (gx(j)*dx + gy(j)*dy)*g
          end do
       end do

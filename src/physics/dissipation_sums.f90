@@ -5,6 +5,7 @@
 !! The viscous part is never negative, the other one is not in leading order.
 module dissipation_sums
    use candidates, only: candidates_t
+   use equation_of_state, only: specific_pressure
    use harmonic_means, only: mean_coefficients
    use kernel, only: kernel_t, pair
    use kinds, only: dp
@@ -31,7 +32,7 @@ contains
       do c = 1, block%n_clusters
          i = i0 + (c - 1)*nl
          call sum_cluster(model, block, p, c, i, total)
-         p%dissipating(i + 1:i + nl) = factor*p%base%w(i + 1:i + nl)*total
+         p%dissipating(i + 1:i + nl) = factor*p%base%volume(i + 1:i + nl)*total
       end do
    end subroutine sum_dissipation
 
@@ -41,10 +42,11 @@ contains
       type(particles_t), intent(in) :: p
       integer, intent(in) :: c, i0
       real(dp), intent(out) :: total(nl)
-      real(dp) :: alpha(nl), delta(nl), unused(nl), e_i(nl), e_j, jump(2)
+      real(dp) :: alpha(nl), delta(nl), unused(nl), jump(2)
+      real(dp) :: pressure_i(nl), pressure_j   ! p/rho
       integer :: k, j
 
-      e_i = p%base%s(i0 + 1:i0 + nl)/(model%rho0 + p%base%s(i0 + 1:i0 + nl))
+      pressure_i = specific_pressure(model%c0, model%rho0, p%base%s(i0 + 1:i0 + nl))
       total = 0
       alpha = model%alpha
       delta = model%delta
@@ -57,9 +59,8 @@ contains
          end if
          jump = 0
          if (p%features%no_slip .and. k >= block%first_image(c)) jump = [p%jump_u(j), p%jump_v(j)]
-         ! p/rho = c0**2 e
-         e_j = p%base%s(j)/(model%rho0 + p%base%s(j))
-         call add_slot(model%kernel, p, i0, j, jump, model%rho0*alpha, model%c0**2*delta*(e_j - e_i), total)
+         pressure_j = specific_pressure(model%c0, model%rho0, p%base%s(j))
+         call add_slot(model%kernel, p, i0, j, jump, model%rho0*alpha, delta*(pressure_j - pressure_i), total)
       end do
    end subroutine sum_cluster
 
@@ -68,8 +69,8 @@ contains
       type(kernel_t), intent(in) :: kernel
       type(particles_t), intent(in) :: p
       integer, intent(in) :: i0, j
-      real(dp), intent(in) :: jump(2)                      !! of the slot's velocity at a no-slip wall
-      real(dp), intent(in) :: viscous(nl), diffusive(nl)   !! factors of pi_ij u_ji.r_ji and of D_ij.r_ji
+      real(dp), intent(in) :: jump(2)                      !! [m/s] of the slot's velocity at a no-slip wall
+      real(dp), intent(in) :: viscous(nl), diffusive(nl)   !! [kg/m3, m2/s2] factors of pi_ij u_ji.r_ji and of D_ij.r_ji
       real(dp), intent(inout) :: total(nl)
       real(dp) :: dx, dy, g, inverse_2, d_ij, du_dr
       integer :: i, l
@@ -79,7 +80,7 @@ contains
          i = i0 + l
          dx = p%base%x(j) - p%base%x(i)
          dy = p%base%y(j) - p%base%y(i)
-         call pair(dx, dy, kernel%inverse_support, p%base%w(j), g, inverse_2)
+         call pair(dx, dy, kernel%inverse_support, p%base%volume(j), g, inverse_2)
          d_ij = 2*(p%base%s(j) - p%base%s(i)) - ((p%grad_x(i) + p%grad_x(j))*dx + (p%grad_y(i) + p%grad_y(j))*dy)
          du_dr = (p%base%u(j) + jump(1) - p%base%u(i))*dx + (p%base%v(j) + jump(2) - p%base%v(i))*dy
          total(l) = total(l) + (viscous(l)*du_dr**2*inverse_2 + diffusive(l)*d_ij)*g

@@ -11,7 +11,7 @@ module eddy
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
-   use renormalisation, only: renormalise
+   use renormalisation, only: matrices_t
    implicit none
    private
 
@@ -26,7 +26,7 @@ contains
 
    !> grad u = [ sum_j u_ji (x) grad W V_j ] L of one of a block's particles.
    pure type(velocity_gradient_t) function velocity_gradient(factor, sums, k, l_xx, l_xy, l_yy) result(gradient)
-      real(dp), intent(in) :: factor             !! of the kernel's gradient
+      real(dp), intent(in) :: factor             !! [1/m4] of the kernel's gradient
       type(first_sums_t), intent(in) :: sums     !! of the dynamic pass
       integer, intent(in) :: k                   !! place in the block
       real(dp), intent(in) :: l_xx, l_xy, l_yy
@@ -47,7 +47,7 @@ contains
    !> alpha_i and delta_i of a strain rate, eqs. 21 and 25 with their limiters.
    elemental subroutine eddy_coefficients(model, strain, alpha, delta)
       type(model_t), intent(in) :: model
-      real(dp), intent(in) :: strain            !! ||D||
+      real(dp), intent(in) :: strain            !! [1/s] ||D||
       real(dp), intent(out) :: alpha, delta
       real(dp) :: clipped
 
@@ -56,26 +56,21 @@ contains
       delta = min(model%delta_per_strain*clipped, model%limit)
    end subroutine eddy_coefficients
 
-   !> G of eq. 6, alpha_i and delta_i of a block.
-   pure subroutine freeze_coefficients(model, sums, p, i0, n, singular)
+   !> alpha_i and delta_i of a block.
+   pure subroutine freeze_coefficients(model, sums, l, p, i0, n)
       type(model_t), intent(in) :: model
       type(first_sums_t), intent(in) :: sums
-      type(particles_t), intent(inout) :: p   !! grad_x, grad_y, alpha, delta of the block are set
+      type(matrices_t), intent(in) :: l
+      type(particles_t), intent(inout) :: p   !! alpha, delta of the block are set [1]
       integer, intent(in) :: i0, n            !! slot before the block's first; slots
-      integer, intent(inout) :: singular      !! particles whose L**-1 could not be inverted are added
-      real(dp) :: f, l_xx, l_xy, l_yy, strain(block_slots), regular(block_slots)
+      real(dp) :: strain(block_slots)
       integer :: k
 
-      f = model%kernel%gradient_factor
-      !$omp simd private(l_xx, l_xy, l_yy)
+      !$omp simd
       do k = 1, n
-         call renormalise(f, sums%matrix_xx(k), sums%matrix_xy(k), sums%matrix_yy(k), l_xx, l_xy, l_yy, regular(k))
-         p%grad_x(i0 + k) = f*(l_xx*sums%density_x(k) + l_xy*sums%density_y(k))
-         p%grad_y(i0 + k) = f*(l_xy*sums%density_x(k) + l_yy*sums%density_y(k))
-         strain(k) = strain_rate(velocity_gradient(f, sums, k, l_xx, l_xy, l_yy))
+         strain(k) = strain_rate(velocity_gradient(model%kernel%gradient_factor, sums, k, l%xx(k), l%xy(k), l%yy(k)))
       end do
       call eddy_coefficients(model, strain(:n), p%alpha(i0 + 1:i0 + n), p%delta(i0 + 1:i0 + n))
-      singular = singular + count(p%id(i0 + 1:i0 + n) > 0 .and. .not. regular(:n) > 0)
    end subroutine freeze_coefficients
 
    !> The viscous acceleration and the density-diffusion rate, eq. 5 with eqs. 20 and 24.

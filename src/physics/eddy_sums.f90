@@ -16,9 +16,9 @@ module eddy_sums
 
    !> The sums of a block, without the kernel's constant factor F = factor t**3.
    type :: eddy_sums_t
-      real(dp) :: diffusion(block_slots)   !! sum_j delta_ij D_ij . r_ji t**3 V_j
-      real(dp) :: viscous_x(block_slots)   !! sum_j (alpha + alpha_ij) pi_ij x_ji t**3 V_j
-      real(dp) :: viscous_y(block_slots)
+      real(dp) :: diffusion(block_slots)   !! [kg/m] sum_j delta_ij D_ij . r_ji t**3 V_j
+      real(dp) :: viscous_x(block_slots)   !! [m3/s] sum_j (alpha + alpha_ij) pi_ij x_ji t**3 V_j
+      real(dp) :: viscous_y(block_slots)   !! [m3/s]
    end type eddy_sums_t
 
 contains
@@ -28,7 +28,7 @@ contains
       type(kernel_t), intent(in) :: kernel
       type(candidates_t), intent(in) :: block
       type(particles_t), intent(in) :: p      !! base state, G, alpha_i and delta_i of all slots
-      real(dp), intent(in) :: alpha           !! that acts everywhere: the real viscosity's
+      real(dp), intent(in) :: alpha           !! [1] that acts everywhere: the real viscosity's
       integer, intent(in) :: i0               !! slot before the block's first
       type(eddy_sums_t), intent(inout) :: sums
       integer :: c, k
@@ -36,17 +36,17 @@ contains
       do c = 1, block%n_clusters
          k = (c - 1)*nl
          call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
-                        size(p%base%x), p%base%x, p%base%y, p%base%u, p%base%v, p%base%s, p%base%w, p%grad_x, p%grad_y, &
+                        size(p%base%x), p%base%x, p%base%y, p%base%u, p%base%v, p%base%s, p%base%volume, p%grad_x, p%grad_y, &
                         p%alpha, p%delta, alpha, i0 + k, kernel%inverse_support, sums%diffusion(k + 1:k + nl), &
                         sums%viscous_x(k + 1:k + nl), sums%viscous_y(k + 1:k + nl))
       end do
    end subroutine sum_eddy
 
    ! Explicit shapes and accumulators of fixed length keep the sums in vector registers.
-   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, w, gx, gy, a, d, alpha, i0, inverse_support, diffusion, &
+   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, volume, gx, gy, a, d, alpha, i0, inverse_support, diffusion, &
                              viscous_x, viscous_y)
       integer, intent(in) :: n_near, near(n_near), n, i0
-      real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), gx(n), gy(n), a(n), d(n), alpha, inverse_support
+      real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), gx(n), gy(n), a(n), d(n), alpha, inverse_support
       real(dp), dimension(nl), intent(out) :: diffusion, viscous_x, viscous_y
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, gxi, gyi, ai, di, total, ax, ay
       real(dp) :: dx, dy, g, unused, inverse_2, d_ij, pi_ij, alpha_ij, delta_ij
@@ -70,7 +70,7 @@ contains
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
-            call pair(dx, dy, inverse_support, w(j), g, unused)
+            call pair(dx, dy, inverse_support, volume(j), g, unused)
             call mean_coefficients(ai(l), a(j), di(l), d(j), squared_distance(dx, dy), alpha_ij, delta_ij, inverse_2)
             d_ij = 2*(s(j) - si(l)) - ((gxi(l) + gx(j))*dx + (gyi(l) + gy(j))*dy)
             total(l) = total(l) + delta_ij*(d_ij*g)

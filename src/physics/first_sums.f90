@@ -23,22 +23,22 @@ module first_sums
 
    !> The sums of a block, without the kernel's constant factor F = factor t**3; a pass sets what it is for.
    type, extends(flow_sums_t) :: first_sums_t
-      real(dp) :: largest_pi(block_slots)   !! max_j |pi_ij|, with r >= closest h; the particle's own images left out
-      real(dp) :: viscous_x(block_slots)    !! sum_j pi_ij x_ji t**3 V_j
-      real(dp) :: viscous_y(block_slots)
-      real(dp) :: matrix_xx(block_slots)    !! sum_j x_ji x_ji t**3 V_j, and so on: L**-1
-      real(dp) :: matrix_xy(block_slots)
-      real(dp) :: matrix_yy(block_slots)
-      real(dp) :: density_x(block_slots)    !! sum_j (s_j - s_i) x_ji t**3 V_j
-      real(dp) :: density_y(block_slots)
-      real(dp) :: density_0(block_slots)    !! sum_j (s_j - s_i) t**3 V_j
-      real(dp) :: kernel_x(block_slots)     !! sum_j x_ji t**3 V_j: the sum of grad W
-      real(dp) :: kernel_y(block_slots)
-      real(dp) :: crowd(block_slots)        !! sum_j t**3 V_j, the particle and its own images left out
-      real(dp) :: u_x(block_slots)          !! sum_j u_ji x_ji t**3 V_j, and so on: the velocity gradient before L
-      real(dp) :: u_y(block_slots)
-      real(dp) :: v_x(block_slots)
-      real(dp) :: v_y(block_slots)
+      real(dp) :: largest_pi(block_slots)   !! [1/s] max_j |pi_ij|, with r >= closest h; the particle's own images left out
+      real(dp) :: viscous_x(block_slots)    !! [m3/s] sum_j pi_ij x_ji t**3 V_j
+      real(dp) :: viscous_y(block_slots)   !! [m3/s]
+      real(dp) :: matrix_xx(block_slots)    !! [m4] sum_j x_ji x_ji t**3 V_j, and so on: L**-1
+      real(dp) :: matrix_xy(block_slots)   !! [m4]
+      real(dp) :: matrix_yy(block_slots)   !! [m4]
+      real(dp) :: density_x(block_slots)    !! [kg] sum_j (s_j - s_i) x_ji t**3 V_j
+      real(dp) :: density_y(block_slots)   !! [kg]
+      real(dp) :: density_0(block_slots)    !! [kg/m] sum_j (s_j - s_i) t**3 V_j
+      real(dp) :: kernel_x(block_slots)     !! [m3] sum_j x_ji t**3 V_j: the sum of grad W
+      real(dp) :: kernel_y(block_slots)   !! [m3]
+      real(dp) :: crowd(block_slots)        !! [m2] sum_j t**3 V_j, the particle and its own images left out
+      real(dp) :: u_x(block_slots)          !! [m4/s] sum_j u_ji x_ji t**3 V_j, and so on: the velocity gradient before L
+      real(dp) :: u_y(block_slots)   !! [m4/s]
+      real(dp) :: v_x(block_slots)   !! [m4/s]
+      real(dp) :: v_y(block_slots)   !! [m4/s]
    end type first_sums_t
 
 contains
@@ -60,41 +60,41 @@ contains
          associate (near => block%slot(block%first(c):block%first(c + 1) - 1), s => p%base, reach => kernel%inverse_support)
             select case (pass)
             case (pass_flow)
-               call flow_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%w, p%n_own, source, i0 + k, k, reach, sums)
+               call flow_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
             case (pass_viscous)
-               call viscous_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%w, p%n_own, source, i0 + k, k, reach, sums)
+               call viscous_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
             case (pass_diffusive)
-               call diffusive_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%w, p%n_own, source, i0 + k, k, reach, sums)
+               call diffusive_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
             case (pass_constant)
-               call constant_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%w, p%n_own, source, i0 + k, k, reach, sums)
+               call constant_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
             case (pass_dynamic)
-               call dynamic_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%w, p%n_own, source, i0 + k, k, reach, sums)
+               call dynamic_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
             end select
          end associate
       end do
    end subroutine sum_first
 
-   pure subroutine flow_loop(n_near, near, n, x, y, u, v, s, w, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine flow_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .false., strain = .false., viscosity = .false.
       include 'first_pass.inc'
    end subroutine flow_loop
 
-   pure subroutine viscous_loop(n_near, near, n, x, y, u, v, s, w, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine viscous_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .false., strain = .false., viscosity = .true.
       include 'first_pass.inc'
    end subroutine viscous_loop
 
-   pure subroutine diffusive_loop(n_near, near, n, x, y, u, v, s, w, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine diffusive_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .false., viscosity = .false.
       include 'first_pass.inc'
    end subroutine diffusive_loop
 
-   pure subroutine constant_loop(n_near, near, n, x, y, u, v, s, w, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine constant_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .false., viscosity = .true.
       include 'first_pass.inc'
    end subroutine constant_loop
 
-   pure subroutine dynamic_loop(n_near, near, n, x, y, u, v, s, w, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine dynamic_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .true., viscosity = .false.
       include 'first_pass.inc'
    end subroutine dynamic_loop

@@ -16,8 +16,8 @@ module flow
 
    !> Rates of a block; gravity is kept apart because its work is the potential energy's.
    type :: rates_t
-      real(dp) :: u(block_slots), v(block_slots)   !! acceleration by pressure
-      real(dp) :: s(block_slots)                   !! rate of density
+      real(dp) :: u(block_slots), v(block_slots)   !! [m/s2] acceleration by pressure
+      real(dp) :: s(block_slots)                   !! [kg/m3/s] rate of density
    end type rates_t
 
 contains

@@ -14,9 +14,9 @@ module flow_sums
 
    !> The sums of a block, without the kernel's constant factor F = factor t**3.
    type :: flow_sums_t
-      real(dp) :: divergence(block_slots)   !! sum_j u_ji . r_ji t**3 V_j
-      real(dp) :: force_x(block_slots)      !! sum_j (s_i + s_j) x_ji t**3 V_j
-      real(dp) :: force_y(block_slots)      !! sum_j (s_i + s_j) y_ji t**3 V_j
+      real(dp) :: divergence(block_slots)   !! [m4/s] sum_j u_ji . r_ji t**3 V_j
+      real(dp) :: force_x(block_slots)      !! [kg] sum_j (s_i + s_j) x_ji t**3 V_j
+      real(dp) :: force_y(block_slots)      !! [kg] sum_j (s_i + s_j) y_ji t**3 V_j
    end type flow_sums_t
 
 contains
@@ -33,15 +33,15 @@ contains
       do c = 1, block%n_clusters
          k = (c - 1)*nl
          call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), size(state%x), &
-                        state%x, state%y, state%u, state%v, state%s, state%w, i0 + k, kernel%inverse_support, &
+                        state%x, state%y, state%u, state%v, state%s, state%volume, i0 + k, kernel%inverse_support, &
                         sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
       end do
    end subroutine sum_flow
 
    ! Explicit shapes and accumulators of fixed length keep the sums in vector registers.
-   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, w, i0, inverse_support, divergence, force_x, force_y)
+   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, volume, i0, inverse_support, divergence, force_x, force_y)
       integer, intent(in) :: n_near, near(n_near), n, i0
-      real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), w(n), inverse_support
+      real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), inverse_support
       real(dp), dimension(nl), intent(out) :: divergence, force_x, force_y
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, div, fx, fy
       real(dp) :: dx, dy, g, gx, gy, unused
@@ -61,7 +61,7 @@ contains
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
-            call pair(dx, dy, inverse_support, w(j), g, unused)
+            call pair(dx, dy, inverse_support, volume(j), g, unused)
             gx = g*dx
             gy = g*dy
             div(l) = div(l) + (u(j) - ui(l))*gx + (v(j) - vi(l))*gy

@@ -14,26 +14,26 @@ module model
    type :: model_t
       type(kernel_t) :: kernel        !! W and its gradient
       type(box_t) :: box              !! its sides at time 0
-      real(dp) :: dx = 0              !! initial particle spacing
-      real(dp) :: c0 = 0              !! sound speed
-      real(dp) :: rho0 = 0            !! density at p = 0
-      real(dp) :: gravity = 0         !! along -y
-      real(dp) :: acceleration(2) = 0 !! of a uniform force besides gravity
-      real(dp) :: central_rate = 0    !! w of a central force -w**2 (r - centre)
+      real(dp) :: dx = 0              !! [m] initial particle spacing
+      real(dp) :: c0 = 0              !! [m/s] sound speed
+      real(dp) :: rho0 = 0            !! [kg/m3] density at p = 0
+      real(dp) :: gravity = 0         !! [m/s2] along -y
+      real(dp) :: acceleration(2) = 0 !! [m/s2] of a uniform force besides gravity
+      real(dp) :: central_rate = 0    !! [1/s] w of a central force -w**2 (r - centre)
       real(dp) :: centre(2) = 0
       logical :: dynamic = .false.    !! alpha_i and delta_i from the rate of strain
-      real(dp) :: alpha = 0           !! viscous coefficient that acts everywhere, real viscosity included
-      real(dp) :: delta = 0           !! density-diffusion coefficient of the constant model
-      real(dp) :: alpha_per_strain = 0   !! alpha_i/||D||, eq. 25
-      real(dp) :: delta_per_strain = 0   !! delta_i/||D||, eq. 21
-      real(dp) :: limit = 0           !! of alpha_i and delta_i
-      real(dp) :: largest_strain = huge(1.0_dp)   !! ||D|| is clipped here
-      real(dp) :: viscosity = 0       !! real dynamic viscosity, for Q_omega (eq. 29)
+      real(dp) :: alpha = 0           !! [1] viscous coefficient that acts everywhere, real viscosity included
+      real(dp) :: delta = 0           !! [1] density-diffusion coefficient of the constant model
+      real(dp) :: alpha_per_strain = 0   !! [s] alpha_i/||D||, eq. 25
+      real(dp) :: delta_per_strain = 0   !! [s] delta_i/||D||, eq. 21
+      real(dp) :: limit = 0           !! [1] of alpha_i and delta_i
+      real(dp) :: largest_strain = huge(1.0_dp)   !! [1/s] ||D|| is clipped here
+      real(dp) :: viscosity = 0       !! [Pa s] real dynamic viscosity, for Q_omega (eq. 29)
       type(integrator_t) :: integrator
       logical :: frozen = .true.      !! diffusive terms are held over the step
       type(stability_t) :: stability  !! what the step may be with it
-      real(dp) :: cfl = 0             !! Courant number of eq. 8
-      real(dp) :: lattice_crowd = 0   !! sum_j t**3 V_j over the others on a square lattice, F = gradient_factor t**3
+      real(dp) :: cfl = 0             !! [1] Courant number of eq. 8
+      real(dp) :: lattice_crowd = 0   !! [m2] sum_j t**3 V_j over the others on a square lattice, F = gradient_factor t**3
    contains
       procedure :: step_limit
       procedure :: advective_limit
@@ -49,9 +49,9 @@ contains
    !! The paper leaves out the second limit; for viscosity it is dt <= 0.0625 h**2/nu (module linear_stability).
    pure real(dp) function step_limit(self, largest_pi, largest_alpha, largest_delta)
       class(model_t), intent(in) :: self
-      real(dp), intent(in) :: largest_pi      !! over all pairs
-      real(dp), intent(in) :: largest_alpha   !! largest alpha_i + alpha
-      real(dp), intent(in) :: largest_delta   !! largest delta_i, or delta, times crowding
+      real(dp), intent(in) :: largest_pi      !! [1/s] over all pairs
+      real(dp), intent(in) :: largest_alpha   !! [1] largest alpha_i + alpha
+      real(dp), intent(in) :: largest_delta   !! [1] largest delta_i, or delta, times crowding
 
       step_limit = min(self%advective_limit(largest_pi), &
                        self%stability%largest_cfl(largest_delta, largest_alpha)*self%kernel%h/self%c0)

@@ -18,7 +18,7 @@ contains
       type(candidates_t), intent(in) :: block
       type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the block change
       integer, intent(in) :: i0, n            !! slot before the block's first; slots
-      real(dp), intent(inout) :: power        !! what moving walls give is added
+      real(dp), intent(inout) :: power        !! [W/m] what moving walls give is added
       type(friction_sums_t) :: sums
       real(dp) :: factor
       integer :: k

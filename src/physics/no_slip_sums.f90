@@ -18,9 +18,9 @@ module no_slip_sums
 
    !> Sums of a block, without the kernel's constant factor F = factor t**3.
    type :: friction_sums_t
-      real(dp) :: x(block_slots)       !! sum_j alpha_ij pi^jump_ij x_ji t**3 V_j
-      real(dp) :: y(block_slots)
-      real(dp) :: power(block_slots)   !! sum_j alpha_ij pi^jump_ij U_j.r_ji t**3 V_j, U_j the velocity of the image's wall
+      real(dp) :: x(block_slots)       !! [m3/s] sum_j alpha_ij pi^jump_ij x_ji t**3 V_j
+      real(dp) :: y(block_slots)   !! [m3/s]
+      real(dp) :: power(block_slots)   !! [m4/s2] sum_j alpha_ij pi^jump_ij U_j.r_ji t**3 V_j, U_j the velocity of the image's wall
    end type friction_sums_t
 
 contains
@@ -42,7 +42,7 @@ contains
             do l = (c - 1)*nl + 1, c*nl
                dx = p%base%x(j) - p%base%x(i0 + l)
                dy = p%base%y(j) - p%base%y(i0 + l)
-               call pair(dx, dy, kernel%inverse_support, p%base%w(j), g, unused)
+               call pair(dx, dy, kernel%inverse_support, p%base%volume(j), g, unused)
                sums%u_x(l) = sums%u_x(l) + p%jump_u(j)*(g*dx)
                sums%u_y(l) = sums%u_y(l) + p%jump_u(j)*(g*dy)
                sums%v_x(l) = sums%v_x(l) + p%jump_v(j)*(g*dx)
@@ -57,7 +57,7 @@ contains
       type(kernel_t), intent(in) :: kernel
       type(candidates_t), intent(in) :: block
       type(particles_t), intent(in) :: p
-      real(dp), intent(in) :: alpha           !! that acts everywhere
+      real(dp), intent(in) :: alpha           !! [1] that acts everywhere
       integer, intent(in) :: i0               !! slot before the block's first
       type(friction_sums_t), intent(inout) :: sums
       real(dp) :: dx, dy, g, inverse_2, alpha_ij, unused, f
@@ -73,7 +73,7 @@ contains
             do l = (c - 1)*nl + 1, c*nl
                dx = p%base%x(j) - p%base%x(i0 + l)
                dy = p%base%y(j) - p%base%y(i0 + l)
-               call pair(dx, dy, kernel%inverse_support, p%base%w(j), g, unused)
+               call pair(dx, dy, kernel%inverse_support, p%base%volume(j), g, unused)
                call mean_coefficients(p%alpha(i0 + l), p%alpha(j), 1.0_dp, 1.0_dp, squared_distance(dx, dy), alpha_ij, unused, &
                                       inverse_2)
                f = (alpha + alpha_ij)*(p%jump_u(j)*dx + p%jump_v(j)*dy)*inverse_2*g

@@ -3,7 +3,7 @@
 !! Source: eqs. 5-8; the dynamic model's coefficients are eqs. 19-26. The sums over neighbours are in src/physics.
 module frozen_terms
    use candidates, only: block_slots
-   use diffusion, only: freeze_density_diffusion, freeze_gradient, freeze_viscosity
+   use diffusion, only: begin_density_diffusion, freeze_density_diffusion, freeze_viscosity
    use diffusion_sums, only: sum_diffusion
    use eddy, only: freeze_coefficients, freeze_eddy_terms
    use eddy_sums, only: eddy_sums_t, sum_eddy
@@ -16,6 +16,7 @@ module frozen_terms
    use no_slip, only: add_friction
    use no_slip_sums, only: sum_jump_gradient
    use particles, only: features_t, particles_t
+   use renormalisation, only: freeze_gradient, matrices_t
    use runge_kutta, only: block_t
    implicit none
    private
@@ -52,9 +53,10 @@ contains
       type(block_t), intent(inout) :: block
       type(first_sums_t) :: sums
       type(rates_t) :: rates
+      type(matrices_t) :: l
       integer :: i0, n
 
-      i0 = (b - 1)*block_slots
+      i0 = near%blocks(b)%before
       n = nl*near%blocks(b)%n_clusters
       call sum_first(first_pass(model, p%features), model%kernel, near%blocks(b), p, near%images%source, i0, sums)
       call flow_rates(model, p%base, i0, n, sums, rates)
@@ -62,16 +64,17 @@ contains
       p%next%v(i0 + 1:i0 + n) = rates%v(:n)
       p%next%s(i0 + 1:i0 + n) = rates%s(:n)
       block%largest_pi = max(block%largest_pi, largest(n, sums%largest_pi))
+      if (p%features%diffusion) call freeze_gradient(model, sums, p, i0, n, l, block%singular)
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
-         call freeze_coefficients(model, sums, p, i0, n, block%singular)
+         call freeze_coefficients(model, sums, l, p, i0, n)
          block%largest_alpha = max(block%largest_alpha, largest(n, p%alpha(i0 + 1:i0 + n)))
          block%largest_delta = max(block%largest_delta, &
                                    largest(n, p%delta(i0 + 1:i0 + n)*crowding(model, sums%crowd(:n))))
       else
          if (p%features%viscosity) call freeze_viscosity(model, model%alpha, sums%viscous_x, sums%viscous_y, p, i0, n)
          if (.not. p%features%diffusion) return
-         call freeze_gradient(model, sums, p, i0, n, block%singular)
+         call begin_density_diffusion(sums, p, i0, n)
          block%largest_delta = max(block%largest_delta, model%delta*crowding(model, largest(n, sums%crowd)))
       end if
    end subroutine begin_frozen_terms
@@ -109,7 +112,7 @@ contains
       type(eddy_sums_t) :: eddy
       integer :: i0, n
 
-      i0 = (b - 1)*block_slots
+      i0 = near%blocks(b)%before
       n = nl*near%blocks(b)%n_clusters
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)

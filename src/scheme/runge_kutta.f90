@@ -4,6 +4,7 @@
 module runge_kutta
    use box, only: bottom_wall, box_t, find_bounds, left_wall, reflect, right_wall, top_wall, wrap
    use candidates, only: block_slots
+   use equation_of_state, only: specific_pressure
    use flow, only: rates_t
    use integrators, only: most_stages
    use kinds, only: dp, sp
@@ -23,13 +24,13 @@ module runge_kutta
    !> A stage of a step.
    type :: moment_t
       integer :: stage = 1   !! of the model's integrator
-      real(dp) :: dt = 0     !! [time] length of the step
+      real(dp) :: dt = 0     !! [s] length of the step
       type(box_t) :: box     !! at the stage's time
    end type moment_t
 
    !> A block's part of a stage's state.
    type :: stage_t
-      real(dp), dimension(block_slots) :: x, y, u, v, s, w, m
+      real(dp), dimension(block_slots) :: x, y, u, v, s, volume, m
    end type stage_t
 
    !> Sums and extremes of a block.
@@ -99,7 +100,7 @@ contains
          now%u(k) = state%u(i0 + k)
          now%v(k) = state%v(i0 + k)
          now%s(k) = state%s(i0 + k)
-         now%w(k) = state%w(i0 + k)
+         now%volume(k) = state%volume(i0 + k)
          now%m(k) = m(i0 + k)
       end do
    end subroutine take_stage
@@ -149,7 +150,7 @@ contains
       power = 0
       !$omp simd reduction(+:power)
       do k = 1, n
-         pressure(k) = c0**2*now%s(k)/(rho0 + now%s(k))*now%w(k)
+         pressure(k) = specific_pressure(c0, rho0, now%s(k))*now%volume(k)
          power = power + now%m(k)*(now%u(k)*rates%u(k) + now%v(k)*rates%v(k)) + pressure(k)*rates%s(k)
       end do
    end subroutine take_power
@@ -217,7 +218,7 @@ contains
          call set_sum(n, base%u(i1:i2), time, rates%u, then%u(i1:i2))
          call set_sum(n, base%v(i1:i2), time, rates%v, then%v(i1:i2))
          call set_sum(n, base%s(i1:i2), time, rates%s, then%s(i1:i2))
-         call set_volumes(n, rho0, now%m, then%s(i1:i2), then%w(i1:i2))
+         call set_volumes(n, rho0, now%m, then%s(i1:i2), then%volume(i1:i2))
       end associate
    end subroutine go_on
 
@@ -266,15 +267,15 @@ contains
       end do
    end subroutine set_sum
 
-   pure subroutine set_volumes(n, rho0, m, s, w)
+   pure subroutine set_volumes(n, rho0, m, s, volume)
       integer, intent(in) :: n
       real(dp), intent(in) :: rho0, m(n), s(n)
-      real(dp), intent(out) :: w(n)
+      real(dp), intent(out) :: volume(n)
       integer :: k
 
       !$omp simd
       do k = 1, n
-         w(k) = m(k)/(rho0 + s(k))
+         volume(k) = m(k)/(rho0 + s(k))
       end do
    end subroutine set_volumes
 
@@ -306,7 +307,7 @@ contains
 
       call cross_sides(model, box, p, i0, n, sums)
       associate (next => p%next, i1 => i0 + 1, i2 => i0 + n)
-         call set_volumes(n, model%rho0, p%m(i1:i2), next%s(i1:i2), next%w(i1:i2))
+         call set_volumes(n, model%rho0, p%m(i1:i2), next%s(i1:i2), next%volume(i1:i2))
          call take_extremes(n, model%c0, model%rho0, p%m(i1:i2), next%u(i1:i2), next%v(i1:i2), next%s(i1:i2), sums, lost)
          if (.not. lost) return
          do i = i1, i2
@@ -333,7 +334,7 @@ contains
       do k = 1, n
          speed_2 = merge(u(k)**2 + v(k)**2, 0.0_dp, m(k) > 0)
          fastest_2 = max(fastest_2, speed_2)
-         pressure = max(pressure, c0**2*s(k)/(rho0 + s(k)))
+         pressure = max(pressure, specific_pressure(c0, rho0, s(k)))
          largest_s = max(largest_s, abs(s(k)))
          out = max(out, merge(0.0_dp, 1.0_dp, within_range(c0, rho0, speed_2, s(k))))
       end do

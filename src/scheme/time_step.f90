@@ -4,8 +4,9 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
-   use candidates, only: block_slots
    use dissipation_sums, only: sum_dissipation
+   use equation_of_state, only: specific_pressure
+   use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
@@ -63,7 +64,7 @@ contains
 
       associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
          speed_2 = maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own)
-         pressure = maxval(model%c0**2*s/(model%rho0 + s), mask=own)
+         pressure = maxval(specific_pressure(model%c0, model%rho0, s), mask=own)
          largest_s = maxval(abs(s), mask=own)
       end associate
       call take_extremes(model, speed_2, pressure, largest_s, run)
@@ -313,7 +314,7 @@ contains
 
       !$omp parallel do default(none) shared(model, p, near, moment, blocks) private(i0, n, rates) schedule(dynamic)
       do b = 1, near%n_blocks
-         i0 = (b - 1)*block_slots
+         i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call complete_frozen_terms(model, p, near, b, blocks(b))
          if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
@@ -350,7 +351,7 @@ contains
       !$omp parallel do default(none) shared(model, p, near, moment, now, blocks) &
       !$omp private(i0, n, sums, rates) schedule(dynamic)
       do b = 1, near%n_blocks
-         i0 = (b - 1)*block_slots
+         i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
          call flow_rates(model, p%stage(now), i0, n, sums, rates)
@@ -390,7 +391,7 @@ contains
       blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
       !$omp parallel do default(none) shared(model, p, near, moment, kept, blocks) private(i0, n, rates) schedule(dynamic)
       do b = 1, near%n_blocks
-         i0 = (b - 1)*block_slots
+         i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call take_kept(kept, i0, n, rates)
          call update_block(model, p, i0, n, moment, rates, blocks(b))
@@ -398,21 +399,26 @@ contains
       !$omp end parallel do
    end subroutine whole_stage
 
-   ! Sums over the blocks in their order, so that the result does not depend on the number of threads.
+   ! Sums over the blocks: exact, so that neither threads nor the order of blocks matter.
    subroutine collect(model, run, last_time, blocks)
       type(model_t), intent(in) :: model
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
-      real(dp) :: moving_walls
+      real(dp) :: powers(5, size(blocks)), totals(5), moving_walls
+      integer :: b
 
       if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
          run%limited = run%limited + 1
-      moving_walls = run%dt*sum(blocks%wall_power)
-      run%work_alpha = run%work_alpha + sum(blocks%work(1)) - moving_walls
-      run%work_delta = run%work_delta + sum(blocks%work(2))
-      run%work_walls = run%work_walls + sum(blocks%work(3)) + moving_walls
-      run%work_force = run%work_force + sum(blocks%work(4))
+      do b = 1, size(blocks)
+         powers(:, b) = [blocks(b)%work, blocks(b)%wall_power]
+      end do
+      totals = exact_totals(powers)
+      moving_walls = run%dt*totals(5)
+      run%work_alpha = run%work_alpha + totals(1) - moving_walls
+      run%work_delta = run%work_delta + totals(2)
+      run%work_walls = run%work_walls + totals(3) + moving_walls
+      run%work_force = run%work_force + totals(4)
       run%crossings = run%crossings + sum(blocks%crossings)
       run%singular = run%singular + sum(blocks%singular)
       call take_extremes(model, maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), run)

@@ -126,7 +126,7 @@ contains
 
       r = [p%base%x(i), p%base%y(i)]
       u = [p%base%u(i), p%base%v(i)]
-      associate (w => p%base%w(i))
+      associate (w => p%base%volume(i))
          if (solution%lasts) then
             error(1) = norm2(u - solution%velocity(r))
             error(2) = abs(model%c0**2*p%base%s(i) - solution%pressure(r))

@@ -66,7 +66,7 @@ contains
       call fill_ghosts(near%images, as_gradient(box, 1), p%grad_x)
       call fill_ghosts(near%images, as_gradient(box, 2), p%grad_y)
       do b = 1, near%n_blocks
-         i0 = (b - 1)*block_slots
+         i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call complete_frozen_terms(model, p, near, b, blocks(b))
          do l = 1, n
@@ -88,7 +88,7 @@ contains
       type(rates_t) :: rates
       integer :: i, i0, l, n
 
-      i0 = (b - 1)*block_slots
+      i0 = near%blocks(b)%before
       n = nl*near%blocks(b)%n_clusters
       call sum_first(pass_constant, model%kernel, near%blocks(b), p, near%images%source, i0, sums)
       call sum_flow(model%kernel, near%blocks(b), p%base, i0, flow)

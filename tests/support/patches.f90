@@ -1,10 +1,10 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
-   use candidates, only: block_clusters
    use integrators, only: new_integrator
    use kernel, only: new_kernel
    use kinds, only: dp, i8
+   use lanes, only: nl
    use linear_stability, only: stability_t
    use model, only: model_t
    use neighbours, only: list_neighbours, neighbours_t, sort_particles
@@ -145,7 +145,7 @@ contains
       p%next%u(1:n) = points%u
       p%next%v(1:n) = points%v
       p%next%s(1:n) = points%s
-      p%next%w(1:n) = points%w
+      p%next%volume(1:n) = points%w
    end subroutine put_particles
 
    !> rho - rho0 = constant + slope.r, in `next`; volumes stay and masses follow.
@@ -156,7 +156,7 @@ contains
 
       associate (n => p%n_own)
          p%next%s(1:n) = constant + slope(1)*p%next%x(1:n) + slope(2)*p%next%y(1:n)
-         p%m(1:n) = (model%rho0 + p%next%s(1:n))*p%next%w(1:n)
+         p%m(1:n) = (model%rho0 + p%next%s(1:n))*p%next%volume(1:n)
       end associate
    end subroutine set_linear_density
 
@@ -183,8 +183,8 @@ contains
       integer, allocatable :: slots(:)
       integer :: b
 
-      b = (cluster - 1)/block_clusters + 1
-      associate (block => near%blocks(b), c => cluster - (b - 1)*block_clusters)
+      b = count(near%blocks(:near%n_blocks)%before <= nl*(cluster - 1))
+      associate (block => near%blocks(b), c => cluster - near%blocks(b)%before/nl)
          slots = block%slot(block%first(c):block%first(c + 1) - 1)
       end associate
    end function candidates_of
@@ -199,7 +199,7 @@ contains
       call scatter(p, p%base%u, points%u)
       call scatter(p, p%base%v, points%v)
       call scatter(p, p%base%s, points%s)
-      call scatter(p, p%base%w, points%w)
+      call scatter(p, p%base%volume, points%w)
       call scatter(p, p%m, points%m)
    end function points_of
 

@@ -60,7 +60,7 @@ contains
       fluid%p%next%u(1:n) = snapshot%u
       fluid%p%next%v(1:n) = snapshot%v
       fluid%p%next%s(1:n) = 0
-      fluid%p%next%w(1:n) = snapshot%volume
+      fluid%p%next%volume(1:n) = snapshot%volume
       associate (model => fluid%model, near => fluid%near)
          near%slack = 0
          call sort_particles(near, fluid%p, model%kernel, model%box, model%dx, 0.0_dp, scattered)
@@ -138,7 +138,7 @@ contains
       slots = slots(:n)
       dx = (fluid%p%base%x(slots) - place(1))/kernel%h
       dy = (fluid%p%base%y(slots) - place(2))/kernel%h
-      weight = kernel_value(kernel, kernel%h*hypot(dx, dy))*fluid%p%base%w(slots)
+      weight = kernel_value(kernel, kernel%h*hypot(dx, dy))*fluid%p%base%volume(slots)
       call least_squares(dx, dy, weight, c, solved)
       if (solved) then
          weight = weight*(c(1) + c(2)*dx + c(3)*dy)
