@@ -154,7 +154,7 @@ contains
 
       variant%run = run
       associate (new => variant%p, n => p%n_own)
-         call allocate_particles(new, p%n, needed_features(variant%scene))
+         call allocate_particles(new, p%n, needed_features(variant%scene, variant%model))
          call reserve_slots(new, n)
          new%n_own = n
          new%id(:n) = p%id(:n)

@@ -50,7 +50,7 @@ contains
       found%particles = particles
       found%dt = model%longest_step()
       ! Slots of padding and images, neighbour lists and sorting besides the particles' own.
-      found%bytes = particles*(1.25_dp*bytes_per_slot(needed_features(scene)) + 150)
+      found%bytes = particles*(1.25_dp*bytes_per_slot(needed_features(scene, model)) + 150)
       found%steps = steps_of(scene, guessed_step_share*found%dt)
       call reckon(found)
       found%ns = timed_ns(scene, min(longest_trial, trial_share*found%seconds))

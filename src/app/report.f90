@@ -1,23 +1,23 @@
 !> What a run tells its user: start box, closing table and summary.
 module report
+   use box, only: bottom_wall, is_wall, left_wall, no_slip_wall, periodic_side, right_wall, top_wall
    use budget, only: budget_t
    use build_info, only: build_type, git_id, version
    use cadence, only: cadence_t
    use cost, only: cost_t
    use errors, only: failure
-   use box, only: bottom_wall, is_wall, left_wall, no_slip_wall, periodic_side, right_wall, top_wall
+   use kernel, only: k_2d
    use kinds, only: dp
    use lanes, only: nl, root_name
    use limits, only: sound_speed_for_density, sound_speed_for_mach
-   use model, only: model_t
-   use omp_lib, only: omp_get_max_threads
+   use model, only: model_t, terms_t
    use neighbours, only: neighbours_t
-   use particles, only: features_t, particles_t
+   use omp_lib, only: omp_get_max_threads
+   use particles, only: particles_t
    use progress, only: duration_text
    use recorder, only: recorder_t
    use room, only: output_bytes
    use run_log, only: log_t
-   use scene_setup, only: needed_features
    use settings, only: settings_t
    use summary, only: summary_t
    use text, only: short, to_text
@@ -47,7 +47,7 @@ contains
       lines(3) = 'diffusion     '//diffusion_text(scene, model)
       lines(4) = 'Reynolds      '//reynolds_text(scene, model)
       lines(5) = 'uses          '//used(scene, model)
-      lines(6) = 'leaves out    '//left_out(scene, model)
+      lines(6) = 'leaves out    '//left_out(model)
       lines(7) = 'step          dt <= '//short(costs%dt)//' (cfl '//short(costs%dt*model%c0/model%kernel%h)//'), about ' &
                  //short(anint(costs%steps))//' steps to t = '//short(scene%time%end_time)
       lines(8) = 'memory        about '//short(costs%bytes/1.0e6_dp)//' MB, '//short(anint(costs%bytes/costs%particles)) &
@@ -68,7 +68,7 @@ contains
       real(dp) :: speed, nu
 
       speed = reference_speed(scene)
-      nu = model%alpha*model%kernel%h*model%c0/8   ! eq. 16
+      nu = model%alpha*model%kernel%h*model%c0/k_2d   ! eq. 16
       if (.not. nu > 0) then
          words = 'none: alpha = 0'
          if (model%dynamic) words = 'none: viscosity = 0'
@@ -126,39 +126,40 @@ contains
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       character(:), allocatable :: words, kind_of_images
+      type(terms_t) :: has
 
+      has = model%terms()
       words = 'RK'//model%integrator%name(3:)
       if (.not. model%frozen) words = words//', diffusion in every stage'
-      if (model%gravity > 0) words = words//', gravity'
-      if (model%has_force()) words = words//', uniform force'
-      if (model%central_rate > 0) words = words//', central force'
+      if (has%gravity) words = words//', gravity'
+      if (has%force) words = words//', uniform force'
+      if (has%central) words = words//', central force'
       associate (kind => model%box%kind)
          kind_of_images = ', mirror'
          if (any(abs(model%box%density_slope) > 0)) kind_of_images = ', hydrostatic'
-         if (any(is_wall(kind))) words = words//kind_of_images//' images ('//sides_text(is_wall(kind))//')'
-         if (any(kind == no_slip_wall)) words = words//', no slip ('//sides_text(kind == no_slip_wall)//')'
-         if (any(kind == periodic_side)) words = words//', periodic ('//sides_text(kind == periodic_side)//')'
+         if (has%walls) words = words//kind_of_images//' images ('//sides_text(is_wall(kind))//')'
+         if (has%no_slip) words = words//', no slip ('//sides_text(kind == no_slip_wall)//')'
+         if (has%periodic) words = words//', periodic ('//sides_text(kind == periodic_side)//')'
       end associate
-      if (model%dynamic) words = words//', strain rate'
-      if (model%alpha > 0 .or. model%dynamic) words = words//', viscosity'
-      if (model%delta > 0 .or. model%dynamic) words = words//', density diffusion'
+      if (has%eddies) words = words//', strain rate'
+      if (has%viscosity) words = words//', viscosity'
+      if (has%diffusion) words = words//', density diffusion'
       if (scene%exact%solution /= 'none') words = words//', exact solution'
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
       if (size(scene%gauges) > 0) words = words//', '//to_text(size(scene%gauges))//' gauges'
    end function used
 
    ! Terms that the scene's steps neither compute nor have arrays for.
-   function left_out(scene, model) result(words)
-      type(settings_t), intent(in) :: scene
+   function left_out(model) result(words)
       type(model_t), intent(in) :: model
       character(:), allocatable :: words
-      type(features_t) :: has
+      type(terms_t) :: has
 
-      has = needed_features(scene)
+      has = model%terms()
       words = names_text([character(24) :: 'gravity', 'uniform force', 'central force', 'walls', 'no-slip', 'periodic sides', &
                           'viscosity', 'density diffusion', 'dynamic coefficients'], &
-                         .not. [model%gravity > 0, model%has_force(), model%central_rate > 0, any(is_wall(model%box%kind)), &
-                                has%no_slip, any(model%box%kind == periodic_side), has%viscosity, has%diffusion, has%eddy])
+                         .not. [has%gravity, has%force, has%central, has%walls, has%no_slip, has%periodic, has%viscosity, &
+                                has%diffusion, has%eddies])
    end function left_out
 
    ! What is neither measured nor written.
@@ -166,9 +167,7 @@ contains
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: words, message
       type(cadence_t) :: energy, probes, errors, snapshots
-      type(features_t) :: has
 
-      has = needed_features(scene)
       ! The cadences' texts were checked with the input.
       call energy%parse(trim(scene%output%energy), message)
       call probes%parse(trim(scene%output%probes), message)
@@ -177,7 +176,8 @@ contains
       words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'snapshots', 'dissipation field'], &
                          [energy%is_never(), size(scene%probes) == 0 .or. probes%is_never(), &
                           size(scene%gauges) == 0 .or. probes%is_never(), &
-                          scene%exact%solution == 'none' .or. errors%is_never(), snapshots%is_never(), .not. has%dissipation])
+                          scene%exact%solution == 'none' .or. errors%is_never(), snapshots%is_never(), &
+                          .not. any(scene%output%fields(:scene%output%n_fields) == 'dissipation')])
    end function not_written
 
    ! The names marked, parted by commas; 'nothing' if there is none.

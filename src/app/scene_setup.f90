@@ -4,10 +4,10 @@ module scene_setup
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
-   use kernel, only: new_kernel
+   use kernel, only: k_2d, new_kernel
    use kinds, only: dp
    use linear_stability, only: margins_t, new_stability
-   use model, only: model_t
+   use model, only: model_t, terms_t
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
@@ -56,7 +56,6 @@ contains
    pure subroutine set_up_dynamic(scene, model)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(inout) :: model
-      real(dp), parameter :: k_2d = 8
 
       associate (h => model%kernel%h, c0 => model%c0, input => scene%model)
          model%alpha_per_strain = k_2d*(input%c_s*2*h)**2/(c0*h)
@@ -99,16 +98,14 @@ contains
    end function kind_of_side
 
    !> What the scene's particles carry.
-   pure type(features_t) function needed_features(scene) result(features)
+   pure type(features_t) function needed_features(scene, model) result(features)
       type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model   !! of the scene
+      type(terms_t) :: has
 
-      associate (domain => scene%domain, output => scene%output)
-         features%eddy = scene%model%diffusion == 'dynamic'
-         features%viscosity = features%eddy .or. scene%alpha_total() > 0
-         features%diffusion = features%eddy .or. scene%model%delta > 0
-         features%no_slip = any([domain%left, domain%right, domain%bottom, domain%top] == 'no_slip')
-         features%dissipation = any(output%fields(:output%n_fields) == 'dissipation')
-      end associate
+      has = model%terms()
+      features = features_t(viscosity=has%viscosity, diffusion=has%diffusion, eddy=has%eddies, no_slip=has%no_slip, &
+                            dissipation=any(scene%output%fields(:scene%output%n_fields) == 'dissipation'))
    end function needed_features
 
    !> Particles of the whole scene.
@@ -134,7 +131,7 @@ contains
       integer :: k, i, slot
       real(dp) :: position(2), velocity(2), pressure
 
-      call allocate_particles(p, count_particles(scene), needed_features(scene))
+      call allocate_particles(p, count_particles(scene), needed_features(scene, model))
       call new_solution(scene, model, solution)
       slot = 0
       do k = 1, size(scene%bodies)

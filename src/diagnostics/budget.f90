@@ -7,24 +7,13 @@ module budget
    use energy, only: energies_t, measure_energies
    use box, only: bottom_wall, is_wall, left_wall, right_wall
    use kinds, only: dp
-   use model, only: model_t
+   use model, only: model_t, terms_t
    use particles, only: particles_t
    use rest_state, only: rest_energies
    implicit none
    private
 
-   public :: budget_t, terms_t, works_t, start_budget, update_budget, add_rotation
-
-   !> What a scene's budget consists of besides kinetic and elastic energy.
-   type :: terms_t
-      logical :: potential = .false.    !! E_P: gravity or a central force
-      logical :: viscosity = .false.    !! Q_alpha
-      logical :: diffusion = .false.    !! Q_delta
-      logical :: walls = .false.        !! W_s
-      logical :: force = .false.        !! W_f: a uniform force
-      logical :: rotation = .false.     !! Q_omega: a real viscosity
-      logical :: eddies = .false.       !! alpha_i and delta_i of the dynamic model
-   end type terms_t
+   public :: budget_t, works_t, start_budget, update_budget, add_rotation
 
    !> Energies given to the fluid since t = 0.
    type :: works_t
@@ -33,7 +22,7 @@ module budget
 
    !> Where the energy is and has gone.
    type :: budget_t
-      type(terms_t) :: has
+      type(terms_t) :: has                   !! what it consists of besides kinetic and elastic energy
       type(energies_t) :: initial
       type(energies_t) :: rest               !! 0 where the scene has no tank that it could rest in
       logical :: has_rest = .false.
@@ -61,19 +50,6 @@ contains
       mass = sum(p%m(1:p%n_own))
    end function fluid_mass
 
-   !> What the scene's budget consists of.
-   pure type(terms_t) function terms_of(model) result(has)
-      type(model_t), intent(in) :: model
-
-      has%potential = model%gravity > 0 .or. model%central_rate > 0
-      has%viscosity = model%alpha > 0 .or. model%dynamic
-      has%diffusion = model%delta > 0 .or. model%dynamic
-      has%walls = any(is_wall(model%box%kind))
-      has%force = model%has_force()
-      has%rotation = model%viscosity > 0
-      has%eddies = model%dynamic
-   end function terms_of
-
    !> Takes the initial energies and the rest state's.
    !!
    !! Where there is nothing to lose that could be a measure (no tank, or fluid at rest), energies are normalised by
@@ -87,7 +63,7 @@ contains
       real(dp), parameter :: least_share = 1.0e-3_dp
       real(dp) :: mass
 
-      self%has = terms_of(model)
+      self%has = model%terms()
       call measure_energies(model, p, self%initial)
       self%now = self%initial
       self%has_rest = can_rest(model)

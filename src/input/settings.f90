@@ -3,6 +3,7 @@
 !! The initial values below are the defaults of the input keys; module
 !! `scene_keys` adds unit, range and meaning to each and calls some required.
 module settings
+   use kernel, only: k_2d
    use kinds, only: dp
    implicit none
    private
@@ -172,11 +173,9 @@ contains
    end function smoothing_length
 
    !> The alpha that acts everywhere: the constant model's and the fluid's viscosity together [-].
-   !! Source: eq. 16, mu = alpha h c0 rho0/K with K = 8 in two dimensions.
+   !! Source: eq. 16, mu = alpha h c0 rho0/K.
    pure real(dp) function alpha_total(self)
       class(settings_t), intent(in) :: self
-
-      real(dp), parameter :: k_2d = 8.0_dp
 
       associate (fluid => self%fluid)
          alpha_total = k_2d*fluid%viscosity/(fluid%sound_speed*self%smoothing_length()*fluid%density)

@@ -8,6 +8,7 @@ module settings_check
    use domain_check, only: check_domain
    use draft, only: draft_t
    use integrators, only: new_integrator
+   use kernel, only: k_2d
    use kinds, only: dp
    use linear_stability, only: new_stability, stability_t
    use output_check, only: check_output
@@ -226,9 +227,9 @@ contains
          advice = 'not so with &scene resolution below '//rounded_down(draft%scene%scene%resolution/factor) &
                   //' or a sound speed above '//rounded_up(draft%scene%fluid%sound_speed*factor)
       end if
-      ! alpha = 8 nu/(c0 h): the limit of alpha is one of dt nu/h**2.
+      ! alpha = K nu/(c0 h): the limit of alpha is one of dt nu/h**2.
       call beyond_limit(group, key, 'with alpha = '//short(alpha)//', viscosity included, the viscous limit dt <= ' &
-                        //rounded_down(stability%times_alpha/8.0_dp)//' h**2/nu is that of cfl = ' &
+                        //rounded_down(stability%times_alpha/k_2d)//' h**2/nu is that of cfl = ' &
                         //rounded_down(stability%times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice, &
                         draft)
    end subroutine check_viscosity

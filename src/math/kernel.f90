@@ -13,6 +13,9 @@ module kernel
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
+   !> K of eq. 16, mu = alpha h c0 rho0/K: 2 (n + 2) in n = 2 dimensions.
+   real(dp), parameter, public :: k_2d = 8
+
    !> Distance in h below which a pair counts as this far apart in max |pi_ij|. Nothing keeps particles from meeting, because the
    !! kernel's gradient is 0 at r = 0; with eq. 8 as printed, steps would shrink to nothing before they do.
    real(dp), parameter, public :: closest = 0.01_dp

@@ -1,6 +1,6 @@
 !> The constants of the model in paper symbols, worked out once from the input.
 module model
-   use box, only: box_t
+   use box, only: box_t, is_wall, no_slip_wall, periodic_side
    use integrators, only: integrator_t
    use kernel, only: kernel_t
    use kinds, only: dp
@@ -8,7 +8,22 @@ module model
    implicit none
    private
 
-   public :: model_t
+   public :: model_t, terms_t
+
+   !> Which terms act in a scene: what is computed and kept, what the energy budget consists of, what is reported.
+   type :: terms_t
+      logical :: gravity = .false.
+      logical :: force = .false.         !! a uniform force besides gravity; W_f
+      logical :: central = .false.       !! a central force
+      logical :: potential = .false.     !! gravity or a central force; E_P
+      logical :: walls = .false.         !! W_s
+      logical :: no_slip = .false.       !! walls that the fluid sticks to
+      logical :: periodic = .false.      !! sides
+      logical :: viscosity = .false.     !! Q_alpha
+      logical :: diffusion = .false.     !! of the density; Q_delta
+      logical :: eddies = .false.        !! alpha_i and delta_i of the dynamic model
+      logical :: rotation = .false.      !! a real viscosity; Q_omega
+   end type terms_t
 
    !> Everything the right-hand sides need besides the state.
    type :: model_t
@@ -38,6 +53,7 @@ module model
       procedure :: step_limit
       procedure :: advective_limit
       procedure :: longest_step
+      procedure :: terms
       procedure :: has_force
       procedure :: force_at
    end type model_t
@@ -71,6 +87,23 @@ contains
 
       longest_step = self%step_limit(0.0_dp, self%alpha, self%delta)
    end function longest_step
+
+   !> Which terms act.
+   pure type(terms_t) function terms(self)
+      class(model_t), intent(in) :: self
+
+      terms%gravity = self%gravity > 0
+      terms%force = self%has_force()
+      terms%central = self%central_rate > 0
+      terms%potential = terms%gravity .or. terms%central
+      terms%walls = any(is_wall(self%box%kind))
+      terms%no_slip = any(self%box%kind == no_slip_wall)
+      terms%periodic = any(self%box%kind == periodic_side)
+      terms%viscosity = self%alpha > 0 .or. self%dynamic
+      terms%diffusion = self%delta > 0 .or. self%dynamic
+      terms%eddies = self%dynamic
+      terms%rotation = self%viscosity > 0
+   end function terms
 
    !> Whether a uniform force acts besides gravity.
    pure logical function has_force(self)

@@ -5,6 +5,7 @@
 !! each solution is in a scene.
 module solution
    use columns, only: columns_t
+   use kernel, only: k_2d
    use kinds, only: dp
    use model, only: model_t
    use scene_needs, only: needs_t
@@ -16,7 +17,7 @@ module solution
 
    public :: solution_t
 
-   real(dp), parameter, public :: continuum_shear = 1.0_dp/8   !! nu/(alpha h c0) by eq. 16
+   real(dp), parameter, public :: continuum_shear = 1/k_2d   !! nu/(alpha h c0) by eq. 16
    integer, parameter, public :: n_sums = 5                    !! sums over particles that a solution can ask for
 
    !> An exact solution in a scene, at a time.
@@ -163,7 +164,7 @@ contains
       allocate (results(0))
    end function results
 
-   !> nu = alpha h c0 times 1/8 by eq. 16, or another share [m2/s].
+   !> nu = alpha h c0 times 1/K by eq. 16, or another share [m2/s].
    pure real(dp) function viscosity(self, model, share)
       class(solution_t), intent(in) :: self
       type(model_t), intent(in) :: model
