@@ -8,6 +8,9 @@ module document
 
    public :: document_t, group_t, entry_t, value_t
 
+   character, parameter :: parted = achar(0)    ! no name has this letter
+   integer, parameter :: most_kept = 1000       ! values of a key; none takes as many, more are only counted
+
    !> One value as written; quotes are taken off.
    type :: value_t
       character(:), allocatable :: text
@@ -20,8 +23,8 @@ module document
       character(:), allocatable :: key       !! in lower case
       integer :: element = 0                 !! 0: the whole key
       type(place_t) :: place
-      type(value_t), allocatable :: values(:)   !! (n) and room for more
-      integer :: n = 0
+      type(value_t), allocatable :: values(:)   !! (n) and room for more; the first 1,000
+      integer :: n = 0                          !! values given
       character(:), allocatable :: option    !! text behind the '=' of --set, not taken apart yet
       logical :: broken = .false.            !! a mistake in it is noted already
       logical :: known = .false.             !! there is such a key
@@ -46,7 +49,7 @@ module document
    type :: document_t
       type(group_t), allocatable :: groups(:)   !! (n) and room for more
       integer :: n = 0
-      type(name_table_t), private :: numbers    ! 'name': how many; 'name 2': position of the second
+      type(name_table_t), private :: numbers    ! name: how many; name, parted, 2: position of the second
    contains
       procedure :: add_group
       procedure :: count_of
@@ -65,13 +68,14 @@ contains
       logical, intent(in) :: in_quotes
       type(value_t), allocatable :: longer(:)
 
+      self%n = self%n + 1
+      if (self%n > most_kept) return
       if (.not. allocated(self%values)) allocate (self%values(1))
-      if (self%n == size(self%values)) then
-         allocate (longer(2*self%n))
-         longer(:self%n) = self%values
+      if (self%n > size(self%values)) then
+         allocate (longer(2*size(self%values)))
+         longer(:size(self%values)) = self%values
          call move_alloc(longer, self%values)
       end if
-      self%n = self%n + 1
       self%values(self%n)%text = word
       self%values(self%n)%quoted = in_quotes
    end subroutine add_value
@@ -126,7 +130,7 @@ contains
       self%groups(self%n) = item
       number = self%count_of(item%name) + 1
       call self%numbers%put(item%name, number)
-      call self%numbers%put(item%name//' '//to_text(number), self%n)
+      call self%numbers%put(item%name//parted//to_text(number), self%n)
    end subroutine add_group
 
    !> Number of groups of one name.
@@ -143,7 +147,7 @@ contains
       character(*), intent(in) :: name
       integer, intent(in) :: number
 
-      index_of = self%numbers%find(name//' '//to_text(number))
+      index_of = self%numbers%find(name//parted//to_text(number))
    end function index_of
 
    !> Position of a key's last mention in a group, 0 if it is not there.

@@ -112,9 +112,10 @@ contains
       line = '&'//name
       do i = 1, keys%n
          associate (key => keys%items(i))
-            phrase = key%name//' = '//key%value_text()
             if (.not. key%active) cycle
-            if (.not. key%required .and. key%value_text() == default_keys%items(i)%value_text()) cycle
+            phrase = key%value_text()
+            if (.not. key%required .and. phrase == default_keys%items(i)%value_text()) cycle
+            phrase = key%name//' = '//phrase
          end associate
          if (index(line, ' = ') > 0) line = line//','
          if (len(line//phrase) + 3 > widest) then

@@ -247,7 +247,8 @@ contains
 
       strips%overall = extent_t()
       if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, state) private(first, last) schedule(dynamic)
+      !$omp parallel do default(none) shared(strips, state) private(first, last) &
+      !$omp schedule(dynamic, max(1, strips%n/256))
       do k = 1, strips%n
          strips%extent(k) = extent_t()
          first = strips%slot_start(k)
@@ -308,7 +309,7 @@ contains
 
       strips%overall%slack = 0
       if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, slack) schedule(dynamic)
+      !$omp parallel do default(none) shared(strips, slack) schedule(dynamic, max(1, strips%n/256))
       do k = 1, strips%n
          strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)))
       end do

@@ -178,7 +178,7 @@ contains
       end if
       if (.not. allocated(self%extent)) allocate (self%extent(self%n + self%n/8))
       !$omp parallel do default(none) shared(self, strip_start, x) &
-      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic)
+      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic, max(1, self%n/256))
       do k = 1, self%n
          leftmost = huge(1.0_dp)
          rightmost = -huge(1.0_dp)
@@ -218,7 +218,8 @@ contains
       integer :: k, i, b, slot, here, first
 
       first = self%slot_start(1) - 1
-      !$omp parallel do default(none) shared(self, strip_start, number, x, first) private(i, b, slot, here) schedule(dynamic)
+      !$omp parallel do default(none) shared(self, strip_start, number, x, first) private(i, b, slot, here) &
+      !$omp schedule(dynamic, max(1, self%n/256))
       do k = 1, self%n
          associate (start => self%bin_start(self%bin_offset(k) + 1:self%bin_offset(k) + self%bins(k) + 1))
             start = 0
