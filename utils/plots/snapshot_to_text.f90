@@ -55,7 +55,8 @@ contains
       character(name_length), allocatable :: names(:)
       integer :: i, n
 
-      call file%field_names(names)
+      call file%field_names(names, problem)
+      if (problem%raised()) return
       call file%read_points(values, problem)
       if (problem%raised()) return
       allocate (wide(2 + 3*size(names)))

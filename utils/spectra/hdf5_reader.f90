@@ -123,18 +123,21 @@ contains
       self%file = -1
    end subroutine close_snapshot
 
-   !> Names of all particle arrays, in the order in which the file lists them.
-   subroutine field_names(self, names)
+   !> Names of all particle arrays, in the order in which the file lists them. Raises exit_files if one is damaged.
+   subroutine field_names(self, names, problem)
       class(hdf5_reader_t), intent(in) :: self
       character(name_length), allocatable, intent(out) :: names(:)
+      type(failure), intent(inout) :: problem
       integer :: i, kind, members, status
 
       call h5gn_members_f(self%file, fields, members, status)
       if (status < 0) members = 0
       allocate (names(members))
+      names = ''
       do i = 1, members
-         call h5gget_obj_info_idx_f(self%file, fields, i - 1, names(i), kind, status)
+         if (status >= 0) call h5gget_obj_info_idx_f(self%file, fields, i - 1, names(i), kind, status)
       end do
+      if (status < 0) call problem%raise(exit_files, "cannot read which arrays '"//self%path//"' has; "//damaged)
    end subroutine field_names
 
    !> Positions, (3, n).

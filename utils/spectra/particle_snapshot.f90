@@ -32,8 +32,8 @@ contains
       real(dp) :: density, sound_speed
 
       call file%open(path, problem)
+      if (.not. problem%raised()) call file%field_names(names, problem)
       if (.not. problem%raised()) then
-         call file%field_names(names)
          if (.not. any(names == 'velocity')) call problem%raise(exit_files, "'"//path//"' has no velocity; "// &
                                                                 "write it with &output fields = 'velocity', ...")
       end if
