@@ -11,7 +11,8 @@ module hdf5_writer
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
       h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
       h5t_std_u8le, h5t_str_nullpad_f, h5t_string, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f, &
-      h5f_libver_v110_f, h5p_dataset_create_f, h5p_file_access_f, h5pclose_f, h5pcreate_f, h5pset_chunk_f, h5pset_fletcher32_f, &
+      h5f_libver_v110_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, &
+      h5pclose_f, h5pcreate_f, h5pset_chunk_f, h5pset_fletcher32_f, &
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
    implicit none
@@ -47,7 +48,7 @@ contains
    subroutine create(self, path)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: path
-      integer(hid_t) :: access
+      integer(hid_t) :: access, creation
       integer :: status
 
       self%path = trim(path)
@@ -63,8 +64,10 @@ contains
       call note(self, status, 'the file')
       call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
       call note(self, status, 'the file')
-      call h5fcreate_f(partial_path(self%path), h5f_acc_trunc_f, self%file, status, access_prp=access)
+      call timeless(self, h5p_file_create_f, creation, 'the file')
+      call h5fcreate_f(partial_path(self%path), h5f_acc_trunc_f, self%file, status, creation, access)
       call note(self, status, 'the file')
+      call h5pclose_f(creation, status)
       call h5pclose_f(access, status)
    end subroutine create
 
@@ -72,14 +75,30 @@ contains
    subroutine make_group(self, name)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: name   !! with all its parents
-      integer(hid_t) :: group
-      integer :: status
+      integer(hid_t) :: creation, group
+      integer :: ignored, status
 
       if (self%failed) return
-      call h5gcreate_f(self%file, name, group, status)
+      call timeless(self, h5p_group_create_f, creation, name)
+      call h5gcreate_f(self%file, name, group, status, gcpl_id=creation)
       call note(self, status, name)
       if (status >= 0) call h5gclose_f(group, status)
+      call h5pclose_f(creation, ignored)
    end subroutine make_group
+
+   ! Properties of what is created without the time of day: the same run gives the same file.
+   subroutine timeless(self, class, properties, name)
+      type(hdf5_writer_t), intent(inout) :: self
+      integer(hid_t), intent(in) :: class
+      integer(hid_t), intent(out) :: properties
+      character(*), intent(in) :: name   !! of what is created
+      integer :: status
+
+      call h5pcreate_f(class, properties, status)
+      call note(self, status, name)
+      call h5pset_obj_track_times_f(properties, .false., status)
+      call note(self, status, name)
+   end subroutine timeless
 
    !> Writes a real array in single or double precision.
    subroutine put_reals(self, name, values, single)
@@ -248,12 +267,8 @@ contains
       if (self%failed) return
       call h5screate_simple_f(size(extent), extent, space, status)
       call note(self, status, name)
-      call h5pcreate_f(h5p_dataset_create_f, properties, status)
-      call note(self, status, name)
+      call timeless(self, h5p_dataset_create_f, properties, name)
       if (all(extent > 0)) call part(self, properties, extent)
-      ! Without the time of day, the same run gives the same file.
-      call h5pset_obj_track_times_f(properties, .false., status)
-      call note(self, status, name)
       call h5dcreate_f(self%file, name, kind, space, dataset, status, properties)
       call note(self, status, name)
       if (status >= 0) then
