@@ -91,12 +91,13 @@ contains
       type(keys_t), intent(in) :: keys
       type(findings_t), intent(inout) :: notes
       character(name_length) :: names(keys%n)
-      character(:), allocatable :: idle_condition, idle_text, meant
+      character(:), allocatable :: idle, idle_condition, idle_text, meant
       logical :: there(keys%n), missing(keys%n)
       type(place_t) :: idle_place
       integer :: first, i
 
       meant = ''
+      idle = ''
       idle_text = ''
       idle_condition = ''
       do i = 1, keys%n
@@ -105,11 +106,11 @@ contains
             call look_up(group, key%name, first, there(i))
             missing(i) = key%required .and. key%active .and. .not. there(i)
             if (first == 0 .or. key%active) cycle
-            call notes%warning(group%entries(first)%place, '&'//group%name//' '//key%name//' has no effect without ' &
-                               //key%condition)
+            idle = '&'//group%name//' '//key%name//' has no effect without '//key%condition
+            call notes%warning(group%entries(first)%place, idle)
             if (idle_condition /= '') cycle
             idle_condition = key%condition
-            idle_text = '&'//group%name//' '//key%name//' has no effect without '//key%condition
+            idle_text = idle
             idle_place = group%entries(first)%place
          end associate
       end do
