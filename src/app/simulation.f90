@@ -3,7 +3,6 @@ module simulation
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_numerics, failure
    use kinds, only: dp
-   use box, only: bottom_wall
    use limits, only: extremes_t, report_limits, watch_limits
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -64,8 +63,7 @@ contains
       call set_up_particles(scene, model, p)
       call refresh(model, p, near, run, timers)
       if (run%scattered) then
-         call problem%raise(exit_numerics, 'the fluid is further than 4 million strips (of height h) from y = ' &
-                            //short(model%box%at(bottom_wall))//', the lower side of &domain: move the bodies closer')
+         call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long: move the bodies closer in x')
          return
       end if
       call start_extremes(model, p, run)

@@ -43,6 +43,7 @@ contains
       bits = transfer(number, 0_i8)
       place = int(ibits(bits, mantissa_bits - 1, 11))
       mantissa = ibits(bits, 0, mantissa_bits - 1)
+      if (place == 0 .and. mantissa == 0) return
       if (place == 2047) then
          call add_special(self, bits < 0, mantissa /= 0)
          return

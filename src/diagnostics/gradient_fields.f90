@@ -5,6 +5,7 @@
 !! matrix L is singular have none.
 module gradient_fields
    use eddy, only: eddy_coefficients, strain_rate, velocity_gradient, velocity_gradient_t
+   use exact_sum, only: exact_totals
    use first_sums, only: first_sums_t, pass_dynamic, sum_first
    use kinds, only: dp
    use lanes, only: nl
@@ -13,12 +14,11 @@ module gradient_fields
    use no_slip_sums, only: sum_jump_gradient
    use particles, only: particles_t
    use renormalisation, only: renormalise
+   use strips, only: group_slots
    implicit none
    private
 
    public :: gradient_fields_t, measure_gradients, gradient_numbers_t, extent_t, sum_up
-
-   integer, parameter :: sum_slots = 512   !! slots that a partial sum goes over, so that threads don't matter
 
    !> What follows from the velocity gradient, for every own slot.
    type :: gradient_fields_t
@@ -79,55 +79,36 @@ contains
       end do
    end subroutine take_fields
 
-   !> Sums and extremes over the particles, the same for any number of threads.
+   !> Sums and extremes over the particles: exact sums over groups of slots, so that nothing but the particles matters.
    subroutine sum_up(model, p, fields, numbers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(gradient_fields_t), intent(in) :: fields
       type(gradient_numbers_t), intent(out) :: numbers
-      type(gradient_numbers_t), allocatable :: blocks(:)
-      integer :: b, n_blocks
+      real(dp), allocatable :: table(:, :)   ! of each group
+      real(dp) :: totals(3), least(2), largest(2), coefficients(2)   ! of alpha_i and delta_i
+      integer :: g, i, n_groups
 
-      n_blocks = (p%n_own + sum_slots - 1)/sum_slots
-      allocate (blocks(n_blocks))
-      !$omp parallel do default(none) shared(model, p, fields, blocks, n_blocks)
-      do b = 1, n_blocks
-         call sum_block(model, p, fields, (b - 1)*sum_slots + 1, min(b*sum_slots, p%n_own), blocks(b))
+      n_groups = p%n_own/group_slots
+      allocate (table(3, n_groups), source=0.0_dp)
+      least = huge(1.0_dp)
+      largest = 0
+      !$omp parallel do default(none) shared(model, p, fields, table, n_groups) private(i, coefficients) &
+      !$omp reduction(min:least) reduction(max:largest)
+      do g = 1, n_groups
+         do i = (g - 1)*group_slots + 1, g*group_slots
+            if (p%id(i) == 0) cycle
+            call eddy_coefficients(model, fields%strain(i), coefficients(1), coefficients(2))
+            table(:, g) = table(:, g) + [fields%vorticity(i)**2*p%base%volume(i), coefficients]
+            least = min(least, coefficients)
+            largest = max(largest, coefficients)
+         end do
       end do
       !$omp end parallel do
-      numbers%enstrophy = sum(blocks%enstrophy)
-      numbers%alpha = extent_t(minval(blocks%alpha%least), sum(blocks%alpha%mean)/p%n, maxval(blocks%alpha%largest))
-      numbers%delta = extent_t(minval(blocks%delta%least), sum(blocks%delta%mean)/p%n, maxval(blocks%delta%largest))
+      totals = exact_totals(table)
+      numbers%enstrophy = totals(1)
+      numbers%alpha = extent_t(least(1), totals(2)/p%n, largest(1))
+      numbers%delta = extent_t(least(2), totals(3)/p%n, largest(2))
    end subroutine sum_up
-
-   ! Of the slots first to last; the means are still sums.
-   pure subroutine sum_block(model, p, fields, first, last, block)
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      type(gradient_fields_t), intent(in) :: fields
-      integer, intent(in) :: first, last
-      type(gradient_numbers_t), intent(out) :: block
-      real(dp) :: alpha, delta
-      integer :: i
-
-      block%alpha%least = huge(1.0_dp)
-      block%delta%least = huge(1.0_dp)
-      do i = first, last
-         if (p%id(i) == 0) cycle
-         block%enstrophy = block%enstrophy + fields%vorticity(i)**2*p%base%volume(i)
-         call eddy_coefficients(model, fields%strain(i), alpha, delta)
-         call include_value(block%alpha, alpha)
-         call include_value(block%delta, delta)
-      end do
-   end subroutine sum_block
-
-   pure subroutine include_value(extent, value)
-      type(extent_t), intent(inout) :: extent
-      real(dp), intent(in) :: value
-
-      extent%least = min(extent%least, value)
-      extent%mean = extent%mean + value
-      extent%largest = max(extent%largest, value)
-   end subroutine include_value
 
 end module gradient_fields

@@ -1,7 +1,7 @@
 !> The slots that a cluster's particles may come close to during a step: listed once, visited by every pass over pairs.
 !!
-!! Clusters are dealt with in blocks of a fixed number of slots, fewer at the end of a strip, whatever the number of threads: a
-!! block has the lists of its clusters, and is what sums over particles go over first.
+!! Clusters are dealt with in blocks of a fixed number of slots, whatever the number of threads: a block has the lists of its
+!! clusters.
 module candidates
    use kinds, only: dp, i8
    use lanes, only: nl
@@ -14,12 +14,13 @@ module candidates
 
    integer, parameter, public :: block_slots = 128                 !! slots in a block
    integer, parameter, public :: block_clusters = block_slots/nl   !! clusters in a block
+   integer, parameter, public :: block_groups = block_slots/group_slots   !! groups in a block
    integer, parameter :: group_clusters = group_slots/nl
 
    !> The lists of a block, one cluster's behind the other's.
    type :: candidates_t
       integer :: before = 0                           !! slots before the block's first
-      integer :: n_clusters = 0                       !! blocks at a strip's end are not full
+      integer :: n_clusters = 0                       !! the last block is not full
       integer :: first(block_clusters + 1) = 1        !! where a cluster's list begins in `slot`
       integer :: first_image(block_clusters) = 1      !! where its images begin: they come last
       integer, allocatable :: slot(:)

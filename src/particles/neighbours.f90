@@ -6,7 +6,7 @@
 !! in time.
 module neighbours
    use candidates, only: block_slots, candidates_t, list_group, trim_lists
-   use box, only: bottom_wall, box_t
+   use box, only: left_wall, box_t
    use image_laws, only: as_scalar
    use images, only: fill_ghosts, images_t, list_images
    use kernel, only: kernel_t
@@ -86,9 +86,9 @@ contains
          p%stage(1)%y(i) = p%next%y(i) + self%tau*p%next%v(i)
       end do
       !$omp end parallel do
-      self%strips%height = kernel%support/2
-      self%strips%bin_width = dx/4
-      self%strips%origin = box%at(bottom_wall)
+      self%strips%width = kernel%support/2
+      self%strips%bin_height = dx/4
+      self%strips%origin = box%at(left_wall)
       call sort_into_strips(self%strips, n_old, p%id(1:n_old), p%stage(1)%x(1:n_old), p%stage(1)%y(1:n_old), 1, .true.)
       scattered = self%strips%n < 0
       if (scattered) return
@@ -99,8 +99,8 @@ contains
       self%age = 0
       self%stray = 0
       call measure_strips(self%strips, p%base)
-      self%images%strips%height = self%strips%height
-      self%images%strips%bin_width = dx   ! images stand in narrow stripes far apart, and many bins are empty
+      self%images%strips%width = self%strips%width
+      self%images%strips%bin_height = dx   ! images stand in narrow stripes far apart, and many bins are empty
       self%images%strips%origin = self%strips%origin
       ! Room for steps half as long again as expected.
       self%image_travel = 2*self%tau
@@ -196,27 +196,20 @@ contains
       call move_alloc(spare, p%dissipating)
    end subroutine permute_dissipated
 
-   ! Blocks of slots, each within a strip, so that what is summed up in one does not depend on the strips beside its own.
    subroutine lay_out_blocks(self)
       type(neighbours_t), intent(inout) :: self
-      integer :: b, k, before
+      integer :: b
 
-      associate (start => self%strips%slot_start(:self%strips%n + 1))
-         self%n_blocks = sum((start(2:) - start(:self%strips%n) + block_slots - 1)/block_slots)
-         if (allocated(self%blocks)) then
-            if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
-         end if
-         if (.not. allocated(self%blocks)) &
-            allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
-         b = 0
-         do k = 1, self%strips%n
-            do before = start(k) - 1, start(k + 1) - 2, block_slots
-               b = b + 1
-               self%blocks(b)%before = before
-               self%blocks(b)%n_clusters = min(block_slots, start(k + 1) - 1 - before)/nl
-            end do
-         end do
-      end associate
+      self%n_blocks = (self%strips%n_slots + block_slots - 1)/block_slots
+      if (allocated(self%blocks)) then
+         if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
+      end if
+      if (.not. allocated(self%blocks)) &
+         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
+      do b = 1, self%n_blocks
+         self%blocks(b)%before = (b - 1)*block_slots
+         self%blocks(b)%n_clusters = min(block_slots, self%strips%n_slots - self%blocks(b)%before)/nl
+      end do
    end subroutine lay_out_blocks
 
    ! The slack of each block, for the accelerations that its particles had.

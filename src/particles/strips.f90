@@ -1,8 +1,9 @@
-!> Neighbour search: horizontal strips of slots, sorted in x, that a group's neighbours lie in
+!> Neighbour search: upright strips of slots, sorted in y, that a group's neighbours lie in
 !! as a few contiguous ranges.
 !!
-!! Strips are half a search radius high. Inside a strip, points are counting-sorted in x by bins much narrower
-!! than the particle spacing, so the slots that a group of particles can reach are one range a strip.
+!! Strips are half a search radius wide. Inside a strip, points are counting-sorted in y by bins much lower
+!! than the particle spacing, so the slots that a group of particles can reach are one range a strip. Tanks are longer than high:
+!! strips are short, and what is near in them is near in memory.
 !! The order of slots is that of strip, bin and number of the point: neither threads nor where a point was before matter.
 module strips
    use, intrinsic :: iso_fortran_env, only: int64
@@ -33,13 +34,13 @@ module strips
    !> The strips of a set of points and where their slots begin.
    type :: strips_t
       integer :: n = 0                              !! strips
-      real(dp) :: origin = 0                        !! y of some strip's lower edge, set by the caller
-      real(dp) :: bottom = 0                        !! y of the lowest strip's lower edge
-      real(dp) :: height = 1                        !! of a strip
-      real(dp) :: bin_width = 1                     !! in x
+      real(dp) :: origin = 0                        !! x of some strip's left edge, set by the caller
+      real(dp) :: left = 0                          !! x of the first strip's left edge
+      real(dp) :: width = 1                         !! of a strip
+      real(dp) :: bin_height = 1                    !! in y
       integer :: n_slots = 0                        !! slots taken, padding included
       integer, allocatable :: slot_start(:)         !! (n+1) first slot of a strip
-      real(dp), allocatable :: left(:)              !! (n) x of a strip's first bin
+      real(dp), allocatable :: lowest(:)            !! (n) y of a strip's first bin
       integer, allocatable :: bins(:)               !! (n) bins of a strip
       integer, allocatable :: bin_offset(:)         !! (n) where a strip's bins are in bin_start
       integer, allocatable :: bin_start(:)          !! first slot of each bin, and one past the strip's last
@@ -59,7 +60,7 @@ contains
    !! Points with number 0 are left out. With more than `max_strips` strips nothing is done and
    !! n = -1: some point is absurdly far from the others.
    subroutine sort_into_strips(self, n_points, number, x, y, first_slot, whole_groups)
-      type(strips_t), intent(inout) :: self      !! height and bin_width are set by the caller
+      type(strips_t), intent(inout) :: self      !! width and bin_height are set by the caller
       integer, intent(in) :: n_points
       integer, intent(in) :: number(n_points)    !! of each point, no two alike
       real(dp), intent(in) :: x(n_points), y(n_points)
@@ -67,43 +68,45 @@ contains
       logical, intent(in) :: whole_groups        !! pad each strip to whole groups
       integer, allocatable :: strip_start(:)
 
-      call assign_strips(self, n_points, number, y)
+      call assign_strips(self, n_points, number, x)
       if (self%n < 0) return
       call list_by_strip(self, n_points, strip_start)
-      call lay_out(self, strip_start, x, first_slot, whole_groups)
-      call fill_bins(self, strip_start, number, x)
+      call lay_out(self, strip_start, y, first_slot, whole_groups)
+      call fill_bins(self, strip_start, number, y)
    end subroutine sort_into_strips
 
    ! The strip of each point; 0 for points that take no part.
-   subroutine assign_strips(self, n_points, number, y)
+   subroutine assign_strips(self, n_points, number, x)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: n_points, number(n_points)
-      real(dp), intent(in) :: y(n_points)
+      real(dp), intent(in) :: x(n_points)
       integer, parameter :: max_strips = 4000000
-      real(dp) :: lowest, highest
+      real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
+      real(dp) :: first, last, offset
       integer :: i
 
-      lowest = huge(1.0_dp)
-      highest = -huge(1.0_dp)
-      !$omp parallel do default(none) shared(n_points, number, y) reduction(min:lowest) reduction(max:highest)
+      first = huge(1.0_dp)
+      last = -huge(1.0_dp)
+      !$omp parallel do default(none) shared(n_points, number, x) reduction(min:first) reduction(max:last)
       do i = 1, n_points
          if (number(i) == 0) cycle
-         lowest = min(lowest, y(i))
-         highest = max(highest, y(i))
+         first = min(first, x(i))
+         last = max(last, x(i))
       end do
       !$omp end parallel do
       self%n = 0
-      if (highest >= lowest) then
+      if (last >= first) then
          self%n = -1
-         if (.not. max(abs(lowest - self%origin), abs(highest - self%origin)) < self%height*max_strips) return
-         self%bottom = self%origin + self%height*floor((lowest - self%origin)/self%height)
-         self%n = int((highest - self%bottom)/self%height) + 1
+         offset = (first - self%origin)/self%width
+         if (.not. (last - first < self%width*max_strips .and. abs(offset) < max_offset)) return
+         self%left = self%origin + self%width*floor(offset, i8)
+         self%n = int((last - self%left)/self%width) + 1
       end if
       call resize(self%strip_of, n_points)
-      !$omp parallel do default(none) shared(self, n_points, number, y)
+      !$omp parallel do default(none) shared(self, n_points, number, x)
       do i = 1, n_points
          self%strip_of(i) = 0
-         if (number(i) /= 0) self%strip_of(i) = min(self%n, int((y(i) - self%bottom)/self%height) + 1)
+         if (number(i) /= 0) self%strip_of(i) = min(self%n, int((x(i) - self%left)/self%width) + 1)
       end do
       !$omp end parallel do
    end subroutine assign_strips
@@ -160,38 +163,38 @@ contains
    end subroutine list_by_strip
 
    ! Where each strip's slots and bins begin.
-   subroutine lay_out(self, strip_start, x, first_slot, whole_groups)
+   subroutine lay_out(self, strip_start, y, first_slot, whole_groups)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: strip_start(:)
-      real(dp), intent(in) :: x(:)
+      real(dp), intent(in) :: y(:)
       integer, intent(in) :: first_slot
       logical, intent(in) :: whole_groups
-      real(dp) :: leftmost, rightmost
+      real(dp) :: lowest, highest
       integer :: k, i, n_here, slot, offset, max_bins
 
       call resize(self%slot_start, self%n + 1)
       call resize(self%bins, self%n)
       call resize(self%bin_offset, self%n)
-      call resize_real(self%left, self%n)
+      call resize_real(self%lowest, self%n)
       if (allocated(self%extent)) then
          if (size(self%extent) < self%n) deallocate (self%extent)
       end if
       if (.not. allocated(self%extent)) allocate (self%extent(self%n + self%n/8))
-      !$omp parallel do default(none) shared(self, strip_start, x) &
-      !$omp private(i, leftmost, rightmost, n_here, max_bins) schedule(dynamic, max(1, self%n/256))
+      !$omp parallel do default(none) shared(self, strip_start, y) &
+      !$omp private(i, lowest, highest, n_here, max_bins) schedule(dynamic, max(1, self%n/256))
       do k = 1, self%n
-         leftmost = huge(1.0_dp)
-         rightmost = -huge(1.0_dp)
+         lowest = huge(1.0_dp)
+         highest = -huge(1.0_dp)
          do i = strip_start(k), strip_start(k + 1) - 1
-            leftmost = min(leftmost, x(self%by_strip(i)))
-            rightmost = max(rightmost, x(self%by_strip(i)))
+            lowest = min(lowest, y(self%by_strip(i)))
+            highest = max(highest, y(self%by_strip(i)))
          end do
          n_here = strip_start(k + 1) - strip_start(k)
-         self%left(k) = leftmost
+         self%lowest(k) = lowest
          self%bins(k) = 0
          ! A strip of few far-apart points is not worth a bin every quarter spacing.
          max_bins = 64*n_here + 64
-         if (n_here > 0) self%bins(k) = int(min(real(max_bins, dp), (rightmost - leftmost)/self%bin_width)) + 1
+         if (n_here > 0) self%bins(k) = int(min(real(max_bins, dp), (highest - lowest)/self%bin_height)) + 1
       end do
       !$omp end parallel do
       slot = first_slot
@@ -210,21 +213,21 @@ contains
       call resize(self%point_of, self%n_slots)
    end subroutine lay_out
 
-   ! Counting sort in x inside each strip, and by number inside each bin.
-   subroutine fill_bins(self, strip_start, number, x)
+   ! Counting sort in y inside each strip, and by number inside each bin.
+   subroutine fill_bins(self, strip_start, number, y)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: strip_start(:), number(:)
-      real(dp), intent(in) :: x(:)
+      real(dp), intent(in) :: y(:)
       integer :: k, i, b, slot, here, first
 
       first = self%slot_start(1) - 1
-      !$omp parallel do default(none) shared(self, strip_start, number, x, first) private(i, b, slot, here) &
+      !$omp parallel do default(none) shared(self, strip_start, number, y, first) private(i, b, slot, here) &
       !$omp schedule(dynamic, max(1, self%n/256))
       do k = 1, self%n
          associate (start => self%bin_start(self%bin_offset(k) + 1:self%bin_offset(k) + self%bins(k) + 1))
             start = 0
             do i = strip_start(k), strip_start(k + 1) - 1
-               b = bin(self, k, x(self%by_strip(i)))
+               b = bin(self, k, y(self%by_strip(i)))
                start(b) = start(b) + 1
             end do
             slot = self%slot_start(k)
@@ -235,7 +238,7 @@ contains
             end do
             self%point_of(self%slot_start(k) - first:self%slot_start(k + 1) - 1 - first) = 0
             do i = strip_start(k), strip_start(k + 1) - 1
-               b = bin(self, k, x(self%by_strip(i)))
+               b = bin(self, k, y(self%by_strip(i)))
                self%point_of(start(b) - first) = self%by_strip(i)
                start(b) = start(b) + 1
             end do
@@ -277,13 +280,13 @@ contains
       end do
    end subroutine put_in_order
 
-   ! Bin of abscissa x in strip k, clamped to the strip's bins.
-   pure integer function bin(self, k, x)
+   ! Bin of height y in strip k, clamped to the strip's bins.
+   pure integer function bin(self, k, y)
       type(strips_t), intent(in) :: self
       integer, intent(in) :: k
-      real(dp), intent(in) :: x
+      real(dp), intent(in) :: y
 
-      bin = int(max(0.0_dp, min(real(self%bins(k) - 1, dp), (x - self%left(k))/self%bin_width))) + 1
+      bin = int(max(0.0_dp, min(real(self%bins(k) - 1, dp), (y - self%lowest(k))/self%bin_height))) + 1
    end function bin
 
    !> Adds the slot ranges that hold every point that may come closer than `support` to a box of particles while
@@ -294,25 +297,25 @@ contains
       real(dp), intent(in) :: support
       real(dp), intent(in) :: travel   !! time
       type(ranges_t), intent(inout) :: ranges
-      real(dp) :: reach, gap, half_width, strip_bottom, widest, closing(2)
+      real(dp) :: reach, gap, half_height, strip_left, widest, closing(2)
       integer :: k, k1, k2, first, last
 
       if (self%n == 0) return
       closing = travel*relative_speed(box, self%overall)
-      widest = support + box%slack + self%overall%slack + closing(2)
-      k1 = int(max(0.0_dp, min(real(self%n, dp), (box%lower(2) - widest - self%bottom)/self%height))) + 1
-      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (box%upper(2) + widest - self%bottom)/self%height))) + 1
+      widest = support + box%slack + self%overall%slack + closing(1)
+      k1 = int(max(0.0_dp, min(real(self%n, dp), (box%lower(1) - widest - self%left)/self%width))) + 1
+      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (box%upper(1) + widest - self%left)/self%width))) + 1
       do k = k1, k2
          if (self%bins(k) == 0) cycle
          closing = travel*relative_speed(box, self%extent(k))
          reach = support + box%slack + self%extent(k)%slack
-         strip_bottom = self%bottom + (k - 1)*self%height
-         gap = max(0.0_dp, strip_bottom - box%upper(2) - closing(2), box%lower(2) - (strip_bottom + self%height) - closing(2))
+         strip_left = self%left + (k - 1)*self%width
+         gap = max(0.0_dp, strip_left - box%upper(1) - closing(1), box%lower(1) - (strip_left + self%width) - closing(1))
          if (gap >= reach) cycle
-         half_width = sqrt((reach - gap)*(reach + gap)) + closing(1)
-         if (box%upper(1) + half_width < self%left(k)) cycle
-         first = self%bin_start(self%bin_offset(k) + bin(self, k, box%lower(1) - half_width))
-         last = self%bin_start(self%bin_offset(k) + bin(self, k, box%upper(1) + half_width) + 1) - 1
+         half_height = sqrt((reach - gap)*(reach + gap)) + closing(2)
+         if (box%upper(2) + half_height < self%lowest(k)) cycle
+         first = self%bin_start(self%bin_offset(k) + bin(self, k, box%lower(2) - half_height))
+         last = self%bin_start(self%bin_offset(k) + bin(self, k, box%upper(2) + half_height) + 1) - 1
          if (last < first) cycle
          call add_range(ranges, first, last)
       end do
@@ -346,7 +349,7 @@ contains
       if (.not. allocated(self%point_of)) return   ! nothing was sorted yet
       associate (integers => size(self%slot_start, kind=i8) + size(self%bins) + size(self%bin_offset) + size(self%bin_start) &
                              + size(self%strip_of) + size(self%by_strip) + size(self%point_of))
-         bytes = (integers*storage_size(self%bins) + size(self%left, kind=i8)*storage_size(self%left) &
+         bytes = (integers*storage_size(self%bins) + size(self%lowest, kind=i8)*storage_size(self%lowest) &
                   + size(self%extent, kind=i8)*storage_size(self%extent))/8
       end associate
    end function strips_bytes

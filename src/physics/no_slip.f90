@@ -5,6 +5,7 @@ module no_slip
    use model, only: model_t
    use no_slip_sums, only: friction_sums_t, sum_friction
    use particles, only: particles_t
+   use strips, only: group_slots
    implicit none
    private
 
@@ -18,10 +19,10 @@ contains
       type(candidates_t), intent(in) :: block
       type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the block change
       integer, intent(in) :: i0, n            !! slot before the block's first; slots
-      real(dp), intent(inout) :: power        !! [W/m] what moving walls give is added
+      real(dp), intent(inout) :: power(:)     !! (groups) [W/m] what moving walls give is added
       type(friction_sums_t) :: sums
       real(dp) :: factor
-      integer :: k
+      integer :: g, k
 
       if (.not. any(block%first_image(:block%n_clusters) < block%first(2:block%n_clusters + 1))) return
       call sum_friction(model%kernel, block, p, model%alpha, i0, sums)
@@ -29,7 +30,8 @@ contains
          factor = model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0/(model%rho0 + p%base%s(i0 + k))
          p%visc_x(i0 + k) = p%visc_x(i0 + k) + factor*sums%x(k)
          p%visc_y(i0 + k) = p%visc_y(i0 + k) + factor*sums%y(k)
-         power = power + p%m(i0 + k)*factor*sums%power(k)
+         g = 1 + (k - 1)/group_slots
+         power(g) = power(g) + p%m(i0 + k)*factor*sums%power(k)
       end do
    end subroutine add_friction
 

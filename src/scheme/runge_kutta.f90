@@ -3,13 +3,14 @@
 !! Source: sec. 2 of the paper; the works are summed with the stage states and the weights of the scheme (docs/equations.md).
 module runge_kutta
    use box, only: bottom_wall, box_t, find_bounds, left_wall, reflect, right_wall, top_wall, wrap
-   use candidates, only: block_slots
+   use candidates, only: block_groups, block_slots
    use equation_of_state, only: specific_pressure
    use flow, only: rates_t
    use integrators, only: most_stages
    use kinds, only: dp, sp
    use model, only: model_t
    use particles, only: particles_t, state_t
+   use strips, only: group_slots
    implicit none
    private
 
@@ -33,10 +34,10 @@ module runge_kutta
       real(dp), dimension(block_slots) :: x, y, u, v, s, volume, m
    end type stage_t
 
-   !> Sums and extremes of a block.
+   !> Extremes of a block, and sums over each of its groups: a group lies in one strip, and no sum depends on where blocks end.
    type :: block_t
-      real(dp) :: work(4) = 0        !! alpha, delta, walls, uniform force
-      real(dp) :: wall_power = 0     !! of no-slip walls that move
+      real(dp) :: work(block_groups, 4) = 0       !! [J/m] alpha, delta, walls, uniform force
+      real(dp) :: wall_power(block_groups) = 0    !! [W/m] of no-slip walls that move
       real(dp) :: speed_2 = 0        !! max |u|**2
       real(dp) :: pressure = 0       !! max p/rho
       real(dp) :: largest_s = 0
@@ -113,79 +114,93 @@ contains
       real(dp), intent(in) :: weight        !! dt b_k
       type(stage_t), intent(in) :: now      !! that the rates were taken at
       type(rates_t), intent(inout) :: rates
-      real(dp), intent(inout) :: work(4)
+      real(dp), intent(inout) :: work(block_groups, 4)
       real(dp) :: pressure(block_slots)     ! p V/rho = m p/rho**2: the derivative of the elastic energy by rho, eq. 11
-      real(dp) :: power
 
-      call take_power(n, model%c0, model%rho0, now, rates, pressure, power)
-      work(3) = work(3) + weight*power
-      if (p%features%viscosity) then
-         call add_force(n, now, p%visc_x(i0 + 1:i0 + n), p%visc_y(i0 + 1:i0 + n), rates, power)
-         work(1) = work(1) + weight*power
-      end if
-      if (p%features%diffusion) then
-         call add_density_rate(n, pressure, p%diff_s(i0 + 1:i0 + n), rates, power)
-         work(2) = work(2) + weight*power
-      end if
+      call take_power(n, model%c0, model%rho0, weight, now, rates, pressure, work(:, 3))
+      if (p%features%viscosity) &
+         call add_force(n, weight, now, p%visc_x(i0 + 1:i0 + n), p%visc_y(i0 + 1:i0 + n), rates, work(:, 1))
+      if (p%features%diffusion) call add_density_rate(n, weight, pressure, p%diff_s(i0 + 1:i0 + n), rates, work(:, 2))
       rates%v(:n) = rates%v(:n) - model%gravity
       if (model%has_force()) then
          associate (a => spread(model%acceleration, 2, n))
-            call add_force(n, now, a(1, :), a(2, :), rates, power)
+            call add_force(n, weight, now, a(1, :), a(2, :), rates, work(:, 4))
          end associate
-         work(4) = work(4) + weight*power
       end if
       if (model%central_rate > 0) call add_central_force(model, now, n, rates)
    end subroutine add_terms
 
-   ! The power of the rates that there are, sum m u.a + (m p/rho**2) drho/dt: without diffusion and forces it is the walls'.
-   pure subroutine take_power(n, c0, rho0, now, rates, pressure, power)
+   ! The work of the rates that there are, by sum m u.a + (m p/rho**2) drho/dt: without diffusion and forces it is the walls'.
+   pure subroutine take_power(n, c0, rho0, weight, now, rates, pressure, work)
       integer, intent(in) :: n
       real(dp), intent(in) :: c0, rho0
+      real(dp), intent(in) :: weight         !! dt b_k
       type(stage_t), intent(in) :: now
       type(rates_t), intent(in) :: rates
       real(dp), intent(out) :: pressure(n)   !! m p/rho**2
-      real(dp), intent(out) :: power
+      real(dp), intent(inout) :: work(n/group_slots)
+      real(dp) :: power(n)
       integer :: k
 
-      power = 0
-      !$omp simd reduction(+:power)
+      !$omp simd
       do k = 1, n
          pressure(k) = specific_pressure(c0, rho0, now%s(k))*now%volume(k)
-         power = power + now%m(k)*(now%u(k)*rates%u(k) + now%v(k)*rates%v(k)) + pressure(k)*rates%s(k)
+         power(k) = now%m(k)*(now%u(k)*rates%u(k) + now%v(k)*rates%v(k)) + pressure(k)*rates%s(k)
       end do
+      call add_groups(n/group_slots, weight, power, work)
    end subroutine take_power
 
-   pure subroutine add_force(n, now, x, y, rates, power)
+   ! Its work is by sum m u.a.
+   pure subroutine add_force(n, weight, now, x, y, rates, work)
       integer, intent(in) :: n
+      real(dp), intent(in) :: weight         !! dt b_k
       type(stage_t), intent(in) :: now
       real(dp), intent(in) :: x(n), y(n)     !! acceleration
       type(rates_t), intent(inout) :: rates
-      real(dp), intent(out) :: power         !! sum m u.a
+      real(dp), intent(inout) :: work(n/group_slots)
+      real(dp) :: power(n)
       integer :: k
 
-      power = 0
-      !$omp simd reduction(+:power)
+      !$omp simd
       do k = 1, n
-         power = power + now%m(k)*(now%u(k)*x(k) + now%v(k)*y(k))
+         power(k) = now%m(k)*(now%u(k)*x(k) + now%v(k)*y(k))
          rates%u(k) = rates%u(k) + x(k)
          rates%v(k) = rates%v(k) + y(k)
       end do
+      call add_groups(n/group_slots, weight, power, work)
    end subroutine add_force
 
-   pure subroutine add_density_rate(n, pressure, s, rates, power)
+   ! Its work is by sum (m p/rho**2) drho/dt.
+   pure subroutine add_density_rate(n, weight, pressure, s, rates, work)
       integer, intent(in) :: n
-      real(dp), intent(in) :: pressure(n), s(n)   !! m p/rho**2; rate of rho
+      real(dp), intent(in) :: weight             !! dt b_k
+      real(dp), intent(in) :: pressure(n), s(n)  !! m p/rho**2; rate of rho
       type(rates_t), intent(inout) :: rates
-      real(dp), intent(out) :: power              !! sum (m p/rho**2) drho/dt
+      real(dp), intent(inout) :: work(n/group_slots)
+      real(dp) :: power(n)
       integer :: k
 
-      power = 0
-      !$omp simd reduction(+:power)
+      !$omp simd
       do k = 1, n
-         power = power + pressure(k)*s(k)
+         power(k) = pressure(k)*s(k)
          rates%s(k) = rates%s(k) + s(k)
       end do
+      call add_groups(n/group_slots, weight, power, work)
    end subroutine add_density_rate
+
+   ! The sum of each group: by halves, because a reduction over so few adds lane after lane.
+   pure subroutine add_groups(n, weight, power, work)
+      integer, intent(in) :: n   !! groups
+      real(dp), intent(in) :: weight, power(group_slots/4, 4, n)
+      real(dp), intent(inout) :: work(n)
+      real(dp) :: quarter(group_slots/4)
+      integer :: g
+
+      do g = 1, n
+         quarter = (power(:, 1, g) + power(:, 3, g)) + (power(:, 2, g) + power(:, 4, g))
+         work(g) = work(g) + weight*sum(quarter)
+      end do
+   end subroutine add_groups
 
    ! -w**2 (r - centre); nothing for dummies, which are far away.
    pure subroutine add_central_force(model, now, n, rates)
@@ -360,7 +375,7 @@ contains
       type(block_t), intent(inout) :: sums
       real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2)
       logical :: crossed
-      integer :: i
+      integer :: i, g
 
       call find_bounds(box, lower, upper)
       do i = i0 + 1, i0 + n
@@ -376,7 +391,8 @@ contains
             sums%crossings = sums%crossings + 1
             sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
             ! What the uniform force gave is not in the positions, as gravity's energy is.
-            sums%work(4) = sums%work(4) + p%m(i)*dot_product(model%acceleration, place - before)
+            g = 1 + (i - i0 - 1)/group_slots
+            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration, place - before)
          end if
          if (any(box%is_periodic([1, 2]))) then
             call wrap(box, place)

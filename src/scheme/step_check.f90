@@ -25,10 +25,10 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      associate (own => p%id(1:p%n_own) > 0, next => p%next, floor => model%box%at(bottom_wall))
+      associate (own => p%id(1:p%n_own) > 0, next => p%next, left => model%box%at(left_wall))
          if (run%scattered) then
-            call problem%raise(exit_numerics, 'a particle is further than 4 million strips from its tank after step ' &
-                               //moment(run)//': '//particle(p, maxloc(abs(next%y(1:p%n_own) - floor), 1, own)) &
+            call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long after step ' &
+                               //moment(run)//': '//particle(p, maxloc(abs(next%x(1:p%n_own) - left), 1, own)) &
                                //'; close the open side it left by')
             return
          end if

@@ -4,6 +4,7 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
+   use candidates, only: block_groups
    use dissipation_sums, only: sum_dissipation
    use equation_of_state, only: specific_pressure
    use exact_sum, only: exact_totals
@@ -255,7 +256,7 @@ contains
          if (stage == 1) then
             call timers%start(phase_diffusion)
             call first_stage(model, p, near, moment, blocks)
-            if (.not. model%frozen) blocks%wall_power = model%integrator%weight(1)*blocks%wall_power
+            if (.not. model%frozen) call scale_wall_power(model%integrator%weight(1), blocks)
             call timers%stop(phase_diffusion)
          else
             call timers%start(phase_stages)
@@ -276,6 +277,19 @@ contains
       ! A solution that has left its range by so much is no better the second time.
       if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
    end subroutine stages
+
+   ! The power of walls that move, as a stage's part of the step's.
+   subroutine scale_wall_power(weight, blocks)
+      real(dp), intent(in) :: weight
+      type(block_t), intent(inout) :: blocks(:)
+      integer :: b
+
+      !$omp parallel do default(none) shared(weight, blocks)
+      do b = 1, size(blocks)
+         blocks(b)%wall_power = weight*blocks(b)%wall_power
+      end do
+      !$omp end parallel do
+   end subroutine scale_wall_power
 
    ! Makes the lists anew if they do not reach as far as the state that a stage leads to.
    subroutine follow(model, p, near, run, stage, changes, timers, strayed)
@@ -386,11 +400,12 @@ contains
       !$omp end parallel do
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
-      blocks%wall_power = blocks%wall_power + model%integrator%weight(moment%stage)*of_stage%wall_power
-      blocks%largest_alpha = max(blocks%largest_alpha, of_stage%largest_alpha)
-      blocks%largest_delta = max(blocks%largest_delta, of_stage%largest_delta)
-      !$omp parallel do default(none) shared(model, p, near, moment, kept, blocks) private(i0, n, rates) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, moment, kept, blocks, of_stage) private(i0, n, rates) &
+      !$omp schedule(dynamic)
       do b = 1, near%n_blocks
+         blocks(b)%wall_power = blocks(b)%wall_power + model%integrator%weight(moment%stage)*of_stage(b)%wall_power
+         blocks(b)%largest_alpha = max(blocks(b)%largest_alpha, of_stage(b)%largest_alpha)
+         blocks(b)%largest_delta = max(blocks(b)%largest_delta, of_stage(b)%largest_delta)
          i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call take_kept(kept, i0, n, rates)
@@ -399,20 +414,26 @@ contains
       !$omp end parallel do
    end subroutine whole_stage
 
-   ! Sums over the blocks: exact, so that neither threads nor the order of blocks matter.
+   ! Sums over all groups: exact, so that neither threads nor the order of groups matter.
    subroutine collect(model, run, last_time, blocks)
       type(model_t), intent(in) :: model
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
-      real(dp) :: powers(5, size(blocks)), totals(5), moving_walls
-      integer :: b
+      real(dp), allocatable :: powers(:, :)
+      real(dp) :: totals(5), moving_walls
+      integer :: b, g
 
       if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
          run%limited = run%limited + 1
+      allocate (powers(5, block_groups*size(blocks)))
+      !$omp parallel do default(none) shared(blocks, powers) private(g)
       do b = 1, size(blocks)
-         powers(:, b) = [blocks(b)%work, blocks(b)%wall_power]
+         do g = 1, block_groups
+            powers(:, (b - 1)*block_groups + g) = [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
+         end do
       end do
+      !$omp end parallel do
       totals = exact_totals(powers)
       moving_walls = run%dt*totals(5)
       run%work_alpha = run%work_alpha + totals(1) - moving_walls

@@ -5,6 +5,7 @@
 !! (`speed_scale`, `pressure_scale`), which does not pass through zero as an oscillation does.
 module solution_errors
    use columns, only: columns_t
+   use exact_sum, only: exact_totals
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -12,13 +13,13 @@ module solution_errors
    use solution, only: n_sums, solution_t
    use solution_register, only: new_solution
    use solution_results, only: history_t, known, last, result_t, time_mean
+   use strips, only: group_slots
    implicit none
    private
 
    public :: solution_errors_t, start_errors, measure_errors, results_of
 
-   integer, parameter :: block_slots = 512   !! slots that a partial sum goes over, so that threads don't matter
-   integer, parameter :: n_norms = 6         !! sums of the norms
+   integer, parameter :: n_norms = 6   !! sums of the norms
 
    !> The solution and its own sums at t = 0.
    type :: solution_errors_t
@@ -91,29 +92,32 @@ contains
       words = trim(adjustl(buffer))
    end function short_number
 
-   ! All sums over the particles, by blocks.
+   ! All sums over the particles: exact over groups of slots, so that nothing but the particles matters.
    subroutine sum_up(solution, model, p, sums)
       class(solution_t), intent(in) :: solution
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(sums_t), intent(out) :: sums
-      type(sums_t), allocatable :: partial(:)
-      integer :: b, i, n_blocks
+      type(sums_t) :: group
+      real(dp), allocatable :: table(:, :)
+      real(dp) :: totals(n_norms + n_sums), largest(3)
+      integer :: g, i, n_groups
 
-      n_blocks = (p%n_own + block_slots - 1)/block_slots
-      allocate (partial(n_blocks))
-      !$omp parallel do default(none) shared(solution, model, p, partial, n_blocks) private(i)
-      do b = 1, n_blocks
-         do i = (b - 1)*block_slots + 1, min(b*block_slots, p%n_own)
-            if (p%id(i) > 0) call add_particle(solution, model, p, i, partial(b))
+      n_groups = p%n_own/group_slots
+      allocate (table(n_norms + n_sums, n_groups))
+      largest = 0
+      !$omp parallel do default(none) shared(solution, model, p, table, n_groups) private(group, i) reduction(max:largest)
+      do g = 1, n_groups
+         group = sums_t()
+         do i = (g - 1)*group_slots + 1, g*group_slots
+            if (p%id(i) > 0) call add_particle(solution, model, p, i, group)
          end do
+         table(:, g) = [group%norms, group%own]
+         largest = max(largest, group%largest)
       end do
       !$omp end parallel do
-      do b = 1, n_blocks
-         sums%norms = sums%norms + partial(b)%norms
-         sums%own = sums%own + partial(b)%own
-         sums%largest = max(sums%largest, partial(b)%largest)
-      end do
+      totals = exact_totals(table)
+      sums = sums_t(norms=totals(:n_norms), own=totals(n_norms + 1:), largest=largest)
    end subroutine sum_up
 
    pure subroutine add_particle(solution, model, p, i, sums)

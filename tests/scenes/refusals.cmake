@@ -37,8 +37,8 @@ refused(supersonic_body 1 1 "" "is 6 times the sound speed" --set body.velocity=
 refused(probe_off_its_wall 1 1 "" "lies 0.03 m from the nearest wall, more than dx/2 = 0.025" --set "probe(1).position=5.336666666666667,0.2"
    --set scene.resolution=20 ${dam_break})
 refused(probe_named_time 1 1 "" "name of another column" --set "probe(1).name=time" ${dam_break})
-refused(fluid_far_away 2 any "" "further than 4 million strips" --set domain.lower=0,-1e6 --set domain.bottom=open
-   --set body.lower=0,1e6 --set body.upper=2,1000001 --set domain.upper=2,1000002 ${scenes}/still_tank.nml)
+refused(fluid_far_apart 2 any "" "more than 4 million strips of width h long: move the bodies closer in x" --set domain.upper=1000002,1.5
+   --set domain.right=open --set "body(1).lower=1e6,0.6" --set "body(1).upper=1000001,1" ${scenes}/still_layers.nml)
 refused(existing_result 1 1 "old/run.log" "'old' already holds a result .run.log.*--overwrite" --output old ${dam_break})
 refused(unknown_option 1 1 "" "no option --chek. did you mean '--check'" --chek ${dam_break})
 refused(no_scene 1 1 "" "which scene")
@@ -61,8 +61,8 @@ set_tests_properties(too_much_memory PROPERTIES TIMEOUT 30)
 
 # A run that fails leaves its last good state, once: here a particle gets too far away for the strips in step 7.
 add_test(NAME leaves_box_runs COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--quiet;--set;domain.bottom=open;--set;domain.lower=0,-399998;--set;fluid.gravity=0;--set;body.velocity=0,10;--set;body.pressure=zero;--set;fluid.mach=0.1;--set;output.snapshots=3 steps;--set;output.energy=3 steps;--output;leaves_box;${scenes}/still_tank.nml"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=2 "-DEXPECT=4 million strips .* after step 7 at t = 0.105.*: particle 761, before the step at .0.025, 1.87.*last snapshot"
+   "-DCOMMAND=${with_one};--quiet;--set;domain.right=open;--set;domain.upper=399999,1.5;--set;fluid.gravity=0;--set;body(1).lower=399998,0;--set;body(1).upper=399998.1,0.1;--set;body(1).velocity=20,0;--set;body(1).pressure=zero;--set;body(2).pressure=zero;--set;fluid.mach=0.1;--set;output.snapshots=3 steps;--set;output.energy=3 steps;--output;leaves_box;${scenes}/still_layers.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=2 "-DEXPECT=4 million strips .* after step 7 at t = 0.105.*: particle 2, before the step at .399999.8.*last snapshot"
    "-DCREATED=leaves_box;leaves_box/snapshot_000002.vtkhdf" "-DNOT_CREATED=leaves_box/snapshot_000003.vtkhdf" -P ${run_and_expect})
 set_tests_properties(leaves_box_runs PROPERTIES FIXTURES_SETUP leaves_box_result TIMEOUT 30)
 add_test(NAME leaves_box_has_each_state_once COMMAND ${DYNSPH_AWK}
