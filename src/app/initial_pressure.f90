@@ -2,8 +2,8 @@
 module initial_pressure
    use hydrostatics, only: hydrostatic_pressure
    use kinds, only: dp
-   use resting_fluid, only: depth_of, resting_force, resting_force_t
-   use settings, only: settings_t
+   use resting_fluid, only: resting_force, resting_force_t, touch
+   use settings, only: body_settings, settings_t
    implicit none
    private
 
@@ -46,6 +46,61 @@ contains
          end select
       end associate
    end function pressure_at
+
+   !> Fluid above a place in a body [m], through all bodies of hydrostatic pressure that lie on each other there.
+   pure real(dp) function depth_of(scene, force, number, place) result(depth)
+      type(settings_t), intent(in) :: scene
+      type(resting_force_t), intent(in) :: force
+      integer, intent(in) :: number      !! of the body
+      real(dp), intent(in) :: place(2)
+      logical :: passed(size(scene%bodies))
+      real(dp) :: top
+      integer :: k
+
+      passed = scene%bodies%pressure /= 'hydrostatic'
+      k = number
+      do
+         passed(k) = .true.
+         top = face(scene%bodies(k), force, place, up=.true.)
+         k = body_at(scene, force, place, top, passed)
+         if (k == 0) exit
+      end do
+      depth = (place(force%axis) - top)*force%down
+   end function depth_of
+
+   ! The body not passed yet that begins at a height above a place; 0 if there is none.
+   pure integer function body_at(scene, force, place, height, passed) result(number)
+      type(settings_t), intent(in) :: scene
+      type(resting_force_t), intent(in) :: force
+      real(dp), intent(in) :: place(2)
+      real(dp), intent(in) :: height      !! along the axis
+      logical, intent(in) :: passed(:)
+
+      do number = 1, size(scene%bodies)
+         if (passed(number)) cycle
+         associate (body => scene%bodies(number), across => 3 - force%axis)
+            if (place(across) < body%lower(across) .or. place(across) > body%upper(across)) cycle
+            if (touch(scene, face(body, force, place, up=.false.), height)) return
+         end associate
+      end do
+      number = 0
+   end function body_at
+
+   ! Where the line through a place along the force leaves a body, upwards or downwards.
+   pure real(dp) function face(body, force, place, up)
+      type(body_settings), intent(in) :: body
+      type(resting_force_t), intent(in) :: force
+      real(dp), intent(in) :: place(2)
+      logical, intent(in) :: up
+      real(dp) :: half
+
+      associate (axis => force%axis, across => 3 - force%axis, upwards => (force%down < 0) .eqv. up)
+         face = merge(body%upper(axis), body%lower(axis), upwards)
+         if (body%shape /= 'disc') return
+         half = sqrt(max(0.0_dp, body%radius**2 - (place(across) - body%centre(across))**2))
+         face = body%centre(axis) + merge(half, -half, upwards)
+      end associate
+   end function face
 
    !> p/(rho g) in a column of incompressible fluid at the moment its gate is gone.
    !!

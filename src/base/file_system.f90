@@ -6,12 +6,13 @@ module file_system
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_null_char, &
       c_null_funptr, c_ptr, c_size_t
    use errors, only: exit_files, failure
+   use growing_text, only: growing_text_t
    use kinds, only: i8
    implicit none
    private
 
    public :: delete_file, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, path_exists, &
-      publish, remove_directory, rename_file, write_whole_file
+      publish, read_whole_file, remove_directory, rename_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
    character(*), parameter, public :: no_space = 'no space left on the disk'
@@ -235,6 +236,34 @@ contains
       end if
       if (problem%raised()) call delete_file(partial_path(path), ignored)
    end subroutine write_whole_file
+
+   !> Reads the text of a whole file, or all that a pipe gives.
+   subroutine read_whole_file(path, content, problem)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: content
+      type(failure), intent(inout) :: problem   !! exit_files
+      type(growing_text_t) :: text
+      character :: letter
+      integer :: length, unit, status
+
+      content = ''
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
+      if (status == 0) then
+         inquire (unit=unit, size=length)
+         content = repeat(' ', max(0, length))
+         read (unit, iostat=status) content
+         if (status == 0) call text%add(content)
+         ! A pipe does not know how long its text will be.
+         do while (status == 0)
+            read (unit, iostat=status) letter
+            if (status == 0) call text%add(letter)
+         end do
+         close (unit)
+         content = text%text()
+      end if
+      if (.not. is_iostat_end(status)) &
+         call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
+   end subroutine read_whole_file
 
    !> True when the system has taken all bytes written to a unit; gfortran's FLUSH and CLOSE
    !! keep a full disk to themselves.

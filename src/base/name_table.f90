@@ -76,7 +76,7 @@ contains
       type(slot_t), allocatable :: before(:)
       integer :: at, i
 
-      if (.not. allocated(self%slots)) allocate (self%slots(61))
+      if (.not. allocated(self%slots)) allocate (self%slots(5))
       if (2*self%used < size(self%slots)) return
       call move_alloc(self%slots, before)
       allocate (self%slots(4*size(before) + 1))

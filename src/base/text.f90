@@ -1,5 +1,6 @@
 !> Small text helpers: numbers to and from text, lower case, and the nearest known word.
 module text
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
    use kinds, only: dp, i8
    implicit none
    private
@@ -11,6 +12,15 @@ module text
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
    real(dp), parameter :: slack = 1.0e-9_dp ! of a digit: rounding of the number
    integer, parameter :: full_digits = 17   ! enough to give every real(dp) back bit by bit
+
+   interface
+      ! Numbers are read by the C library, which is what a Fortran read does in the end; that takes five times as long.
+      pure real(c_double) function c_strtod(letters, behind_it) bind(c, name='strtod')
+         import :: c_char, c_double, c_ptr
+         character(kind=c_char), intent(in) :: letters(*)
+         type(c_ptr), value :: behind_it
+      end function c_strtod
+   end interface
 
    !> A number as text, without blanks; a real in the fewest digits that read back exactly.
    interface to_text
@@ -33,9 +43,20 @@ contains
       character(:), allocatable :: text_of
 
       character(24) :: buffer
+      integer(i8) :: rest
+      integer :: at
 
-      write (buffer, '(i0)') number
-      text_of = trim(buffer)
+      ! Not by a write, which takes ten times as long.
+      rest = number
+      at = len(buffer) + 1
+      do
+         at = at - 1
+         buffer(at:at) = achar(iachar('0') + int(abs(mod(rest, 10_i8))))
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+      text_of = buffer(at:)
+      if (number < 0) text_of = '-'//text_of
    end function long_text
 
    !> A real in the fewest significant digits that read back as the same number.
@@ -47,9 +68,8 @@ contains
       logical :: exact
       integer :: digit_count
 
-      ! Most numbers have few digits; those that need more than 15 are not tried with fewer.
-      call write_digits(number, 15, buffer, exact)
-      do digit_count = merge(1, 16, exact), full_digits
+      ! A number that is exact in fewer than 15 digits has zeros behind them; those near 0 have not even 15.
+      do digit_count = merge(1, 15, abs(number) < tiny(number)), full_digits
          call write_digits(number, digit_count, buffer, exact)
          if (exact) exit
       end do
@@ -63,15 +83,13 @@ contains
       integer, intent(in) :: digit_count
       character(*), intent(out) :: buffer
       logical, intent(out) :: exact
-      character(16) :: form
       real(dp) :: again
-      integer :: status
 
-      write (form, '(a, i0, a)') '(es40.', digit_count - 1, 'e3)'
-      write (buffer, form) number
-      read (buffer, *, iostat=status) again
-      exact = .true.
-      if (status == 0) exact = transfer(again, 0_i8) == transfer(number, 0_i8)
+      write (buffer, '(es40.'//integer_text(digit_count - 1)//'e3)') number
+      exact = digit_count == full_digits .or. scan(buffer, 'Ny') > 0
+      if (exact) return
+      again = c_strtod(trim(adjustl(buffer))//c_null_char, c_null_ptr)
+      exact = transfer(again, 0_i8) == transfer(number, 0_i8)
    end subroutine write_digits
 
    !> A vector as text, its numbers parted by commas.
@@ -88,22 +106,21 @@ contains
       end do
    end function vector_text
 
-   !> Turns '-1.25E-002' into '-0.0125' where that is as easy to read.
+   !> Turns '-1.2500E-002' into '-0.0125' where that is as easy to read, else into '-1.25e-2'.
    pure function plain_notation(scientific) result(plain)
       character(*), intent(in) :: scientific   !! from an es edit descriptor
       character(:), allocatable :: plain
 
       integer, parameter :: least = -4, greatest = 6   ! exponents shown without an E
-      character(:), allocatable :: digit_string, sign_text
-      integer :: at_e, exponent_value, point, status
+      character(:), allocatable :: digit_string, message, sign_text
+      integer :: at_e, exponent_value, point
 
       at_e = index(scientific, 'E')
       plain = scientific
       if (at_e == 0) return   ! NaN and Infinity have no exponent
-      read (scientific(at_e + 1:), *, iostat=status) exponent_value
-      if (status /= 0) return
+      call parse_integer(scientific(at_e + 1:), exponent_value, message)
       sign_text = ''
-      digit_string = scientific(:at_e - 1)
+      digit_string = scientific(:verify(scientific(:at_e - 1), '0', back=.true.))
       if (digit_string(1:1) == '-') then
          sign_text = '-'
          digit_string = behind(digit_string, 1)
@@ -133,7 +150,7 @@ contains
       real(dp), intent(out) :: number
       character(:), allocatable, intent(out) :: message   !! '' when read, else why not
 
-      integer :: status
+      integer :: marks
 
       number = 0.0_dp
       message = ''
@@ -142,8 +159,8 @@ contains
       else if (abs(decimal_exponent(word)) > largest_exponent) then
          message = quoted(word)//' is beyond the range of numbers'
       else
-         read (word, *, iostat=status) number
-         if (status /= 0) message = quoted(word)//' cannot be read as a number'
+         marks = scan(word//'d', 'dD') - 1   ! what C does not know as the mark of an exponent
+         number = c_strtod(word(:marks)//trim(merge('e', ' ', marks < len(word)))//word(marks + 2:)//c_null_char, c_null_ptr)
       end if
    end subroutine parse_real
 
@@ -173,7 +190,8 @@ contains
       integer, intent(out) :: number
       character(:), allocatable, intent(out) :: message   !! '' when read, else why not
 
-      integer :: at, status
+      integer(i8) :: long
+      integer :: at, i
 
       number = 0
       at = 1
@@ -182,11 +200,16 @@ contains
          message = quoted(word)//' is not a whole number'
          return
       end if
-      read (word, *, iostat=status) number
-      message = ''
-      if (status /= 0) then
-         number = 0
+      long = 0
+      do i = at, len(word)
+         if (long <= huge(number)) long = 10*long + iachar(word(i:i)) - iachar('0')
+      end do
+      if (word(1:1) == '-') long = -long
+      if (long > huge(number) .or. long < -huge(number) - 1_i8) then
          message = quoted(word)//' is beyond the range of whole numbers'
+      else
+         message = ''
+         number = int(long)
       end if
    end subroutine parse_integer
 
@@ -339,7 +362,8 @@ contains
    pure function short(value) result(words)
       real(dp), intent(in) :: value
       character(:), allocatable :: words
-      character(32) :: buffer, form
+      character(32) :: buffer
+      character(:), allocatable :: form
       integer :: decimals
 
       decimals = 3
@@ -352,8 +376,7 @@ contains
          words = trim(adjustl(buffer))
          return
       end if
-      write (form, '(a, i0, a)') '(f0.', max(0, decimals), ')'
-      write (buffer, form) value
+      write (buffer, '(f0.'//integer_text(max(0, decimals))//')') value
       words = trim(buffer)
       do while (index(words, '.') > 0 .and. scan(words(len(words):), '0.') > 0)
          decimals = len(words) - 1

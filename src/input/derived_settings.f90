@@ -18,9 +18,9 @@ contains
       type(draft_t), intent(inout) :: draft
 
       call enclose_discs(draft%scene%bodies)
-      call resolve_pressures(draft)
-      call resolve_sound_speed(draft)
-      call resolve_viscosity(draft)
+      if (draft%notes%clean('fluid force domain')) call resolve_pressures(draft)
+      if (draft%notes%clean('fluid')) call resolve_sound_speed(draft)
+      if (draft%notes%clean('fluid scene')) call resolve_viscosity(draft)
    end subroutine resolve_settings
 
    !> Takes the speed that a preliminary run has found for &fluid reference_speed = 'auto'.
@@ -51,14 +51,13 @@ contains
       integer :: i
       type(resting_force_t) :: force
 
-      if (.not. draft%clean('fluid force domain')) return
       force = resting_force(draft%scene)
       if (force%size > 0.0_dp) return
       do i = 1, size(draft%scene%bodies)
          if (draft%scene%bodies(i)%pressure /= 'hydrostatic') cycle
          draft%scene%bodies(i)%pressure = 'zero'
-         if (draft%given('body', 'pressure', i)) &
-            call draft%warning('body', 'pressure', "&body pressure = 'hydrostatic' has no effect: gravity is 0", i)
+         if (draft%document%given('body', i, 'pressure')) &
+            call draft%warning('body', i, 'pressure', "&body pressure = 'hydrostatic' has no effect: gravity is 0")
       end do
    end subroutine resolve_pressures
 
@@ -66,22 +65,17 @@ contains
    subroutine resolve_sound_speed(draft)
       type(draft_t), intent(inout) :: draft
 
-      if (.not. draft%clean('fluid')) return
       associate (fluid => draft%scene%fluid)
          if (fluid%find_reference_speed) then
             call guess_sound_speed(draft)
          else if (fluid%sound_speed > 0.0_dp) then
-            if (fluid%mach > 0.0_dp) then
-               call draft%warning('fluid', 'mach', '&fluid mach = '//to_text(fluid%mach) &
-                                  //' has no effect: sound_speed is given; leave one of them out')
-               fluid%mach = 0.0_dp
-            end if
+            if (fluid%mach > 0.0_dp) call draft%warning('fluid', 1, 'mach', '&fluid mach = '//to_text(fluid%mach) &
+               //' has no effect: sound_speed is given; leave one of them out')
+            fluid%mach = 0.0_dp
          else if (.not. fluid%mach > 0.0_dp) then
-            call draft%mistake('fluid', 'mach', &
-                               '&fluid needs mach and reference_speed, or sound_speed')
+            call draft%mistake('fluid', 1, 'mach', '&fluid needs mach and reference_speed, or sound_speed')
          else if (.not. fluid%reference_speed > 0.0_dp) then
-            call draft%mistake('fluid', 'reference_speed', &
-                               '&fluid mach needs a reference_speed above 0 to give the sound speed')
+            call draft%mistake('fluid', 1, 'reference_speed', '&fluid mach needs a reference_speed above 0 to give the sound speed')
          else
             fluid%sound_speed = fluid%reference_speed/fluid%mach
          end if
@@ -96,18 +90,17 @@ contains
 
       associate (fluid => draft%scene%fluid)
          if (fluid%sound_speed > 0.0_dp) then
-            call draft%mistake('fluid', 'sound_speed', &
+            call draft%mistake('fluid', 1, 'sound_speed', &
                                auto//'finds the sound speed, and sound_speed is given; leave one of them out')
          else if (.not. fluid%mach > 0.0_dp) then
-            call draft%mistake('fluid', 'reference_speed', &
-                               auto//'needs mach, the Mach number to have: mach = 0.1')
+            call draft%mistake('fluid', 1, 'reference_speed', auto//'needs mach, the Mach number to have: mach = 0.1')
          else
             speed = guessed_speed(draft%scene, draft%solutions)
             if (.not. speed > 0.0_dp .and. draft%notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
-               call draft%mistake('fluid', 'reference_speed', auto//'has nothing to find: no ' &
-                                  //'gravity, force, velocity or moving wall; give one, or sound_speed in the place of mach')
+               call draft%mistake('fluid', 1, 'reference_speed', auto//'has nothing to find: no gravity, ' &
+                                  //'force, velocity or moving wall; give one, or sound_speed in the place of mach')
             end if
             fluid%sound_speed = speed/fluid%mach
          end if
@@ -168,7 +161,6 @@ contains
       real(dp) :: speed
       character(:), allocatable :: problem
 
-      if (.not. draft%clean('fluid scene')) return
       if (.not. draft%scene%fluid%reynolds > 0.0_dp) return
       problem = ''
       associate (fluid => draft%scene%fluid, d => draft%scene%scene%reference_length)
@@ -184,8 +176,7 @@ contains
          else
             fluid%viscosity = fluid%density*speed*d/fluid%reynolds
          end if
-         if (problem /= '') call draft%mistake('fluid', 'reynolds', '&fluid reynolds = ' &
-                                               //to_text(fluid%reynolds)//problem)
+         if (problem /= '') call draft%mistake('fluid', 1, 'reynolds', '&fluid reynolds = '//to_text(fluid%reynolds)//problem)
       end associate
    end subroutine resolve_viscosity
 

@@ -15,7 +15,6 @@ module document
    type :: value_t
       character(:), allocatable :: text
       logical :: quoted = .false.
-      logical :: needs_quotes = .true.       !! not on the command line, where the shell takes them
    end type value_t
 
    !> `key = values` or `key(element) = value`.
@@ -42,7 +41,6 @@ module document
       logical :: unsure = .false.            !! a choice was refused: what goes with it is not known
    contains
       procedure :: add_entry
-      procedure :: drop_entry
    end type group_t
 
    !> All groups of a file in their order.
@@ -54,7 +52,6 @@ module document
       procedure :: add_group
       procedure :: count_of
       procedure :: index_of
-      procedure :: entry_of
       procedure :: given
       procedure :: place_of
    end type document_t
@@ -96,22 +93,10 @@ contains
       self%entries(self%n) = item
    end subroutine add_entry
 
-   !> Takes a key out, because a later one stands for it.
-   pure subroutine drop_entry(self, at)
-      class(group_t), intent(inout) :: self
-      integer, intent(in) :: at
-      integer :: i
-
-      do i = at, self%n - 1
-         self%entries(i) = self%entries(i + 1)
-      end do
-      self%n = self%n - 1
-   end subroutine drop_entry
-
-   !> Appends a group.
+   !> Appends a group, and takes its keys.
    pure subroutine add_group(self, item)
       class(document_t), intent(inout) :: self
-      type(group_t), intent(in) :: item
+      type(group_t), intent(inout) :: item
       type(group_t), allocatable :: longer(:)
       integer :: i, number
 
@@ -119,19 +104,26 @@ contains
       if (self%n == size(self%groups)) then
          allocate (longer(2*self%n))
          do i = 1, self%n
-            longer(i)%place = self%groups(i)%place
-            longer(i)%n = self%groups(i)%n
-            call move_alloc(self%groups(i)%name, longer(i)%name)
-            call move_alloc(self%groups(i)%entries, longer(i)%entries)
+            call move_group(self%groups(i), longer(i))
          end do
          call move_alloc(longer, self%groups)
       end if
       self%n = self%n + 1
-      self%groups(self%n) = item
       number = self%count_of(item%name) + 1
       call self%numbers%put(item%name, number)
       call self%numbers%put(item%name//parted//to_text(number), self%n)
+      call move_group(item, self%groups(self%n))
    end subroutine add_group
+
+   ! A copy would take time for each of its keys.
+   pure subroutine move_group(from, to)
+      type(group_t), intent(inout) :: from, to
+
+      to%place = from%place
+      to%n = from%n
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%entries, to%entries)
+   end subroutine move_group
 
    !> Number of groups of one name.
    pure integer function count_of(self, name)
@@ -150,10 +142,10 @@ contains
       index_of = self%numbers%find(name//parted//to_text(number))
    end function index_of
 
-   !> Position of a key's last mention in a group, 0 if it is not there.
+   ! Position of a key's last mention in a group, 0 if it is not there.
    pure integer function entry_of(self, group, key)
       class(document_t), intent(in) :: self
-      integer, intent(in) :: group           !! position of the group, 0 for none
+      integer, intent(in) :: group           ! position of the group, 0 for none
       character(*), intent(in) :: key
 
       entry_of = 0
@@ -170,7 +162,7 @@ contains
       integer, intent(in) :: number
       character(*), intent(in) :: key
 
-      given = self%entry_of(self%index_of(name, number), key) > 0
+      given = entry_of(self, self%index_of(name, number), key) > 0
    end function given
 
    !> Where a key stands; where its group starts if it is not given; the file if that is not there either.
@@ -182,7 +174,7 @@ contains
       integer :: group, item
 
       group = self%index_of(name, number)
-      item = self%entry_of(group, key)
+      item = entry_of(self, group, key)
       if (group > 0) place = self%groups(group)%place
       if (item > 0) place = self%groups(group)%entries(item)%place
    end function place_of

@@ -1,7 +1,9 @@
 !> What was found wrong or useless in the input, gathered to be told all at once.
 module findings
    use growing_text, only: growing_text_t
+   use kinds, only: dp
    use settings, only: group_names
+   use sorting, only: ascending
    use text, only: to_text
    implicit none
    private
@@ -17,17 +19,14 @@ module findings
    type :: finding_t
       character(:), allocatable :: text      ! the whole message, place included
       integer :: line = 0
+      logical :: forbids = .false.           ! the run
    end type finding_t
-
-   type :: list_t
-      type(finding_t), allocatable :: items(:)   ! (n) and room for more
-      integer :: n = 0
-   end type list_t
 
    !> Mistakes forbid the run, warnings do not.
    type :: findings_t
       character(:), allocatable :: file      !! its name, for messages
-      type(list_t), private :: mistakes, warnings
+      type(finding_t), allocatable, private :: items(:)   ! (n) and room for more
+      integer, private :: n = 0
       logical, private :: spoiled(size(group_names)) = .false.
    contains
       procedure :: mistake
@@ -42,23 +41,23 @@ module findings
 contains
 
    !> Notes a mistake.
-   subroutine mistake(self, place, group, message)
+   pure subroutine mistake(self, place, group, message)
       class(findings_t), intent(inout) :: self
       type(place_t), intent(in) :: place
       character(*), intent(in) :: group     !! namelist group whose values cannot be trusted then, or ''
       character(*), intent(in) :: message
 
       where (group_names == group) self%spoiled = .true.
-      call append(self%mistakes, self%place_text(place)//': '//message, place%line)
+      call append(self, place, message, forbids=.true.)
    end subroutine mistake
 
    !> Notes something that is allowed but surely not meant, or has no effect.
-   subroutine warning(self, place, message)
+   pure subroutine warning(self, place, message)
       class(findings_t), intent(inout) :: self
       type(place_t), intent(in) :: place
       character(*), intent(in) :: message
 
-      call append(self%warnings, self%place_text(place)//': '//message, place%line)
+      call append(self, place, message, forbids=.false.)
    end subroutine warning
 
    !> 'scene.nml:12', or the option of the command line.
@@ -72,74 +71,58 @@ contains
       if (place%line > 0) words = words//':'//to_text(place%line)
    end function place_text
 
-   subroutine append(list, text, line)
-      type(list_t), intent(inout) :: list
-      character(*), intent(in) :: text
-      integer, intent(in) :: line
+   pure subroutine append(self, place, message, forbids)
+      class(findings_t), intent(inout) :: self
+      type(place_t), intent(in) :: place
+      character(*), intent(in) :: message
+      logical, intent(in) :: forbids
       type(finding_t), allocatable :: longer(:)
-      integer :: i
 
-      if (.not. allocated(list%items)) allocate (list%items(8))
-      if (list%n == size(list%items)) then
-         allocate (longer(2*list%n))
-         do i = 1, list%n
-            call move_alloc(list%items(i)%text, longer(i)%text)
-            longer(i)%line = list%items(i)%line
-         end do
-         call move_alloc(longer, list%items)
+      if (.not. allocated(self%items)) allocate (self%items(8))
+      if (self%n == size(self%items)) then
+         allocate (longer(2*self%n))
+         longer(:self%n) = self%items
+         call move_alloc(longer, self%items)
       end if
-      list%n = list%n + 1
-      list%items(list%n)%text = text
-      list%items(list%n)%line = line
+      self%n = self%n + 1
+      associate (item => self%items(self%n))
+         item%text = self%place_text(place)//': '//message
+         item%line = place%line
+         item%forbids = forbids
+      end associate
    end subroutine append
 
-   ! In the order of the file; what has no line comes last. Those of one line stay in the order in which they were found.
-   pure function file_order(list) result(order)
-      type(list_t), intent(in) :: list
-      integer :: order(list%n)
-      integer, allocatable :: first(:)
-      integer :: i, last, line
+   ! The mistakes, or the warnings, in the order of the file; what has no line comes last. Those of one line stay in the order
+   ! in which they were found.
+   pure subroutine sort_by_line(self, forbids, order)
+      type(findings_t), intent(in) :: self
+      logical, intent(in) :: forbids
+      integer, allocatable, intent(out) :: order(:)
+      integer :: i
 
-      order = [(i, i=1, list%n)]
-      if (list%n == 0) return
-      last = maxval(list%items(:list%n)%line) + 1
-      allocate (first(0:last + 1), source=0)
-      do i = 1, list%n
-         line = line_of(list%items(i))
-         first(line + 1) = first(line + 1) + 1
-      end do
-      do line = 1, last
-         first(line) = first(line) + first(line - 1)
-      end do
-      do i = 1, list%n
-         line = line_of(list%items(i))
-         first(line) = first(line) + 1
-         order(first(line)) = i
-      end do
-
-   contains
-
-      pure integer function line_of(item)
-         type(finding_t), intent(in) :: item
-
-         line_of = merge(item%line, last, item%line > 0)
-      end function line_of
-
-   end function file_order
+      order = pack([(i, i=1, self%n)], [(self%items(i)%forbids .eqv. forbids, i=1, self%n)])
+      order = order(ascending([(real(merge(self%items(order(i))%line, huge(1), self%items(order(i))%line > 0), dp), &
+                                i=1, size(order))]))
+   end subroutine sort_by_line
 
    !> True once a mistake was noted.
    pure logical function any_mistake(self)
       class(findings_t), intent(in) :: self
+      integer :: i
 
-      any_mistake = self%mistakes%n > 0
+      any_mistake = any([(self%items(i)%forbids, i=1, self%n)])
    end function any_mistake
 
-   !> True while nothing wrong was noted about a group: its values can be trusted.
-   pure logical function clean(self, group)
+   !> True while nothing wrong was noted about groups: their values can be trusted.
+   pure logical function clean(self, groups)
       class(findings_t), intent(in) :: self
-      character(*), intent(in) :: group
+      character(*), intent(in) :: groups   !! names, parted by blanks
+      integer :: g
 
-      clean = .not. any(self%spoiled .and. group_names == group)
+      clean = .true.
+      do g = 1, size(group_names)
+         if (self%spoiled(g)) clean = clean .and. index(groups, trim(group_names(g))) == 0
+      end do
    end function clean
 
    !> All mistakes, one a line, in the order of the file.
@@ -147,12 +130,13 @@ contains
       class(findings_t), intent(in) :: self
       character(:), allocatable :: lines
       type(growing_text_t) :: all_of_them
-      integer :: order(self%mistakes%n), i
+      integer, allocatable :: order(:)
+      integer :: i
 
-      order = file_order(self%mistakes)
+      call sort_by_line(self, .true., order)
       do i = 1, size(order)
          if (i > 1) call all_of_them%add(new_line('a'))
-         call all_of_them%add(self%mistakes%items(order(i))%text)
+         call all_of_them%add(self%items(order(i))%text)
       end do
       lines = all_of_them%text()
    end function mistake_text
@@ -161,16 +145,14 @@ contains
    pure subroutine warning_list(self, list)
       class(findings_t), intent(in) :: self
       character(:), allocatable, intent(out) :: list(:)
-      integer :: order(self%warnings%n), i, longest
+      integer, allocatable :: order(:)
+      integer :: i, longest
 
-      order = file_order(self%warnings)
-      longest = 1
-      do i = 1, size(order)
-         longest = max(longest, len(self%warnings%items(i)%text))
-      end do
+      call sort_by_line(self, .false., order)
+      longest = max(1, maxval([(len(self%items(order(i))%text), i=1, size(order))]))
       allocate (character(longest) :: list(size(order)))
       do i = 1, size(order)
-         list(i) = self%warnings%items(order(i))%text
+         list(i) = self%items(order(i))%text
       end do
    end subroutine warning_list
 

@@ -3,7 +3,7 @@ module key_reader
    use document, only: entry_t, group_t, value_t
    use draft, only: draft_t
    use findings, only: findings_t, place_t
-   use key_table, only: is_choice, is_list, is_real, is_text, is_vector, is_whole, key_t, keys_t
+   use key_table, only: key_t, keys_t, listed
    use kinds, only: dp
    use scanner, only: letters, scan_option
    use scene_keys, only: count_groups, groups, list_keys
@@ -27,17 +27,19 @@ contains
       allocate (draft%scene%gauges(draft%document%count_of('gauge')))
       do pass = 1, 2
          do g = 1, size(groups)
-            do number = 1, count_groups(draft%scene, groups(g)%name)
-               at = draft%document%index_of(trim(groups(g)%name), number)
-               if (at == 0) cycle
-               call list_keys(draft%scene, draft%solutions, groups(g)%name, number, keys)
-               if (pass == 1) then
+            number = 0
+            do at = 1, draft%document%n
+               associate (group => draft%document%groups(at))
+                  if (group%name /= groups(g)%name) cycle
+                  number = number + 1
+                  if (number > count_groups(draft%scene, groups(g)%name)) exit
+                  call list_keys(draft%scene, draft%solutions, groups(g)%name, number, keys)
+                  if (pass == 2) call check_group(group, keys, draft%notes)
+                  if (pass == 2) cycle
                   do i = 1, keys%n
-                     call read_key(draft%document%groups(at), keys%items(i), draft%notes)
+                     call read_key(group, keys%items(i), draft%notes)
                   end do
-               else
-                  call check_group(draft%document%groups(at), keys, draft%notes)
-               end if
+               end associate
             end do
          end do
       end do
@@ -58,8 +60,8 @@ contains
          missing(g) = groups(g)%required .and. draft%document%count_of(name) == 0
          if (groups(g)%repeatable) cycle
          do number = 2, draft%document%count_of(name)
-            call draft%mistake(name, '', '&'//name//' is given twice, first at ' &
-                               //draft%notes%place_text(draft%document%place_of(name, 1, '')), number)
+            call draft%mistake(name, number, '', '&'//name//' is given twice, first at ' &
+                               //draft%notes%place_text(draft%document%place_of(name, 1, '')))
          end do
       end do
       do g = 1, draft%document%n
@@ -91,28 +93,28 @@ contains
       type(keys_t), intent(in) :: keys
       type(findings_t), intent(inout) :: notes
       character(name_length) :: names(keys%n)
-      character(:), allocatable :: idle, idle_condition, idle_text, meant
-      logical :: there(keys%n), missing(keys%n)
-      type(place_t) :: idle_place
-      integer :: first, i
+      character(:), allocatable :: meant
+      logical :: there, missing(keys%n)
+      integer :: first, i, idle, idle_entry, j
 
+      idle = 0
+      idle_entry = 0
       meant = ''
-      idle = ''
-      idle_text = ''
-      idle_condition = ''
       do i = 1, keys%n
-         associate (key => keys%items(i))
-            names(i) = key%name
-            call look_up(group, key%name, first, there(i))
-            missing(i) = key%required .and. key%active .and. .not. there(i)
-            if (first == 0 .or. key%active) cycle
-            idle = '&'//group%name//' '//key%name//' has no effect without '//key%condition
-            call notes%warning(group%entries(first)%place, idle)
-            if (idle_condition /= '') cycle
-            idle_condition = key%condition
-            idle_text = idle
-            idle_place = group%entries(first)%place
-         end associate
+         names(i) = keys%items(i)%name
+         first = 0   ! entry that gives its values
+         there = .false.
+         do j = group%n, 1, -1
+            if (group%entries(j)%key /= keys%items(i)%name) cycle
+            there = .true.
+            if (group%entries(j)%taken) first = j
+         end do
+         missing(i) = keys%items(i)%required .and. keys%items(i)%active .and. .not. there
+         if (first == 0 .or. keys%items(i)%active) cycle
+         call notes%warning(group%entries(first)%place, no_effect(keys%items(i)))
+         if (idle > 0) cycle
+         idle = i
+         idle_entry = first
       end do
       do i = 1, group%n
          if (group%entries(i)%known) cycle
@@ -124,132 +126,118 @@ contains
       do i = 1, keys%n
          associate (key => keys%items(i))
             if (.not. missing(i) .or. (key%condition /= '' .and. group%unsure)) cycle
-            if (same_choice(key%condition, idle_condition)) then
+            if (same_choice(key, keys%items(max(idle, 1)))) then
                ! One slip: the choice does not fit the keys.
-               call notes%mistake(idle_place, group%name, idle_text//', and '//key%name//' is missing')
+               call notes%mistake(group%entries(idle_entry)%place, group%name, no_effect(keys%items(idle)) &
+                                  //', and '//trim(key%name)//' is missing')
                exit
             end if
-            call notes%mistake(group%place, group%name, '&'//group%name//' needs '//key%name//': '//key%meaning)
+            call notes%mistake(group%place, group%name, '&'//group%name//' needs '//trim(key%name)//': '//trim(key%meaning))
          end associate
       end do
+
+   contains
+
+      pure function no_effect(key) result(words)
+         type(key_t), intent(in) :: key
+         character(:), allocatable :: words
+
+         words = '&'//group%name//' '//trim(key%name)//' has no effect without '//trim(key%condition)
+      end function no_effect
+
+      ! Whether the conditions of two keys are about one choice, as "shape = 'disc'" and "shape = 'rectangle'" are.
+      pure logical function same_choice(one, other)
+         type(key_t), intent(in) :: one, other
+         integer :: equals
+
+         equals = index(one%condition, '=')
+         same_choice = idle > 0 .and. equals > 0 .and. one%condition(:equals) == other%condition(:equals)
+      end function same_choice
+
    end subroutine check_group
-
-   ! The first entry of a group that gives a key's values, and whether the key is mentioned at all.
-   pure subroutine look_up(group, name, first, there)
-      type(group_t), intent(in) :: group
-      character(*), intent(in) :: name
-      integer, intent(out) :: first      ! 0: none, or a mistake in it is noted
-      logical, intent(out) :: there
-      integer :: i
-
-      first = 0
-      there = .false.
-      do i = group%n, 1, -1
-         if (group%entries(i)%key /= name) cycle
-         there = .true.
-         if (group%entries(i)%taken) first = i
-      end do
-   end subroutine look_up
-
-   ! Whether two conditions are about one key, as "shape = 'disc'" and "shape = 'rectangle'" are.
-   pure logical function same_choice(one, other)
-      character(*), intent(in) :: one, other
-
-      same_choice = index(one, '=') > 0
-      if (same_choice) same_choice = index(other, one(:index(one, '='))) == 1
-   end function same_choice
 
    ! The values that a group gives for a key.
    subroutine read_key(group, key, notes)
       type(group_t), intent(inout) :: group
       type(key_t), intent(inout) :: key
       type(findings_t), intent(inout) :: notes
-      type(value_t) :: words(key%length())
-      type(place_t) :: places(key%length())
-      logical :: given(key%length())
-      character(:), allocatable :: problem
-      integer :: first, i
+      integer :: from(key%length())   ! the entry that gives a value; 0: none
+      integer :: i
 
-      call collect(group, key, words, places, given, notes)
-      if (.not. any(given)) return
-      first = findloc(given, .true., 1)
-      problem = ''
-      select case (key%kind)
-      case (is_real)
-         call take_real_or_word(key, words(1), problem)
-      case (is_vector)
-         do i = 1, size(words)
-            if (given(i)) call take_real(key, words(i), key%vector(i), problem)
-            if (problem /= '') call refuse(places(i))
-            problem = ''
-         end do
-         if (.not. all(given) .and. key%required) problem = ' needs '//to_text(size(given))//' values'
-      case (is_whole)
-         call take_whole(key, words(1), problem)
-      case (is_text)
-         call take_text(key, words(1), problem)
-      case (is_choice)
-         call take_choice(key, words(1), key%words, problem)
-         if (problem /= '') group%unsure = .true.
-      case (is_list)
-         key%list = ''
-         key%used = 0
-         do i = 1, size(words)
-            if (.not. given(i)) cycle
-            key%used = key%used + 1
-            call take_choice(key, words(i), key%list(key%used), problem)
-            if (any(key%list(:key%used - 1) == key%list(key%used)) .and. key%list(key%used) /= '') &
-               problem = ' names '//quoted(key%list(key%used))//' twice'
-            if (problem /= '') call refuse(places(i))
-            problem = ''
-         end do
-      end select
-      if (problem /= '') call refuse(places(first))
+      from = 0
+      do i = 1, group%n
+         if (group%entries(i)%key == key%name) call take_entry(i)
+      end do
+      if (all(from == 0)) return
+      if (associated(key%list)) key%list = ''
+      if (associated(key%list)) key%used = 0
+      do i = 1, size(from)
+         if (from(i) > 0) call take_value(group%entries(from(i)), i)
+      end do
+      if (key%required .and. any(from == 0)) &
+         call refuse(group%entries(from(findloc(from > 0, .true., 1))), ' needs '//to_text(size(from))//' values')
 
    contains
 
-      subroutine refuse(place)
-         type(place_t), intent(in) :: place
+      ! Notes what is wrong with an entry, if anything is.
+      subroutine refuse(item, problem)
+         type(entry_t), intent(in) :: item
+         character(*), intent(in) :: problem
 
-         call notes%mistake(place, group%name, '&'//group%name//' '//key%name//problem)
+         if (problem /= '') call notes%mistake(item%place, group%name, '&'//group%name//' '//trim(key%name)//problem)
       end subroutine refuse
 
-   end subroutine read_key
+      ! Finds which values an entry gives.
+      subroutine take_entry(at)
+         integer, intent(in) :: at
+         character(:), allocatable :: problem
 
-   ! Gathers the words given for a key.
-   subroutine collect(group, key, words, places, given, notes)
-      type(group_t), intent(inout) :: group
-      type(key_t), intent(in) :: key
-      type(value_t), intent(out) :: words(:)         ! as many as the key can hold
-      type(place_t), intent(out) :: places(:)
-      logical, intent(out) :: given(:)
-      type(findings_t), intent(inout) :: notes
-      character(:), allocatable :: problem
-      integer :: at, i, j
-
-      problem = ''
-      given = .false.
-      do i = 1, group%n
-         associate (item => group%entries(i))
-            if (item%key /= key%name) cycle
+         associate (item => group%entries(at))
             item%known = .true.
-            if (allocated(item%option)) call scan_option(item, key%kind == is_text, notes, group%name)
-            if (item%broken) cycle
-            problem = count_problem(item, size(words), key%kind == is_list)
-            if (problem /= '') then
-               call notes%mistake(item%place, group%name, '&'//group%name//' '//key%name//problem)
-               cycle
-            end if
-            item%taken = .true.
-            do j = 1, item%n
-               at = max(item%element, j)
-               words(at) = item%values(j)
-               places(at) = item%place
-               given(at) = .true.
-            end do
+            if (allocated(item%option)) &
+               call scan_option(item, associated(key%words) .and. .not. allocated(key%choices), notes, group%name)
+            if (item%broken) return
+            problem = count_problem(item, size(from), associated(key%list))
+            call refuse(item, problem)
+            item%taken = problem == ''
+            if (.not. item%taken) return
+            if (item%element > 0) from(item%element) = at
+            if (item%element == 0) from(:item%n) = at
          end associate
-      end do
-   end subroutine collect
+      end subroutine take_entry
+
+      ! Takes one value that an entry gives.
+      subroutine take_value(item, number)
+         type(entry_t), intent(in) :: item
+         integer, intent(in) :: number
+         character(:), allocatable :: problem, meant
+         logical :: is_word
+
+         associate (word => item%values(merge(1, number, item%element > 0)))
+            problem = ''
+            meant = word%text
+            is_word = associated(key%words) .or. associated(key%list)
+            if (associated(key%chosen)) then
+               meant = trim(key%choices(1))
+               is_word = lower_case(word%text) == meant
+               key%chosen = is_word
+            end if
+            if (associated(key%list)) key%used = key%used + 1
+            if (.not. is_word) then
+               call take_number(key, number, word, problem)
+            else if (.not. (word%quoted .or. allocated(item%option))) then   ! the shell takes quotes
+               problem = ': '//word%text//' is text and needs quotes: '//quoted(meant)
+            else if (allocated(key%choices) .and. .not. associated(key%chosen)) then
+               call take_choice(key, word%text, problem)
+            else if (associated(key%words)) then
+               call take_text(key, word%text, problem)
+            end if
+         end associate
+         if (problem /= '' .and. associated(key%words) .and. allocated(key%choices)) group%unsure = .true.
+         call refuse(item, problem)
+      end subroutine take_value
+
+   end subroutine read_key
 
    ! What is wrong with the number of values, '' when nothing is.
    pure function count_problem(item, length, fewer_allowed) result(problem)
@@ -265,11 +253,10 @@ contains
          problem = '('//to_text(item%element)//') is set, but it has only '//to_text(length)//' values'
       else if (item%element > 0 .and. item%n /= 1) then
          problem = '('//to_text(item%element)//') takes 1 value, not '//to_text(item%n)
-      else if (item%element == 0 .and. fewer_allowed .and. item%n > length) then
-         problem = ' takes at most '//to_text(length)//' values, not '//to_text(item%n)//' ('//shown_values(item)//')'
-      else if (item%element == 0 .and. .not. fewer_allowed .and. item%n /= length) then
-         problem = ' takes '//to_text(length)//trim(merge(' value ', ' values', length == 1))//', not '//to_text(item%n) &
-                   //' ('//shown_values(item)//')'
+      else if (item%element == 0 .and. (item%n > length .or. item%n < length .and. .not. fewer_allowed)) then
+         problem = to_text(length)//trim(merge(' value ', ' values', length == 1))
+         if (fewer_allowed) problem = 'at most '//problem
+         problem = ' takes '//problem//', not '//to_text(item%n)//' ('//shown_values(item)//')'
       end if
    end function count_problem
 
@@ -287,118 +274,78 @@ contains
       if (item%n > shown) line = line//' ...'
    end function shown_values
 
-   ! Whether text lacks the quotes that it needs in a file; on the command line the shell takes them.
-   pure logical function lacks_quotes(word)
-      type(value_t), intent(in) :: word
-
-      lacks_quotes = word%needs_quotes .and. .not. word%quoted
-   end function lacks_quotes
-
-   subroutine take_real_or_word(key, word, problem)
+   ! A number within the key's range.
+   subroutine take_number(key, at, word, problem)
       type(key_t), intent(inout) :: key
+      integer, intent(in) :: at                             ! which of its values
       type(value_t), intent(in) :: word
-      character(:), allocatable, intent(inout) :: problem
-      character(:), allocatable :: instead
-
-      if (.not. associated(key%chosen)) then
-         call take_real(key, word, key%number, problem)
-         return
-      end if
-      instead = trim(key%choices(1))
-      key%chosen = lower_case(word%text) == instead
-      if (key%chosen .and. lacks_quotes(word)) then
-         problem = ': '//word%text//' is text and needs quotes: '//quoted(instead)
-      else if (.not. key%chosen .and. (word%quoted .or. scan(word%text, letters) == 1)) then
-         problem = ' = '//quoted(word%text)//' is unknown; write a number or '//quoted(instead)
-      else if (.not. key%chosen) then
-         call take_real(key, word, key%number, problem)
-      end if
-   end subroutine take_real_or_word
-
-   ! A real number within the key's range.
-   subroutine take_real(key, word, value, problem)
-      type(key_t), intent(in) :: key
-      type(value_t), intent(in) :: word
-      real(dp), intent(inout) :: value
-      character(:), allocatable, intent(inout) :: problem
-      character(:), allocatable :: message
+      character(:), allocatable, intent(inout) :: problem   ! '' when taken
       real(dp) :: number
+      integer :: whole
 
-      if (word%quoted) then
-         problem = ': '//quoted(word%text)//' is text in quotes; a number is wanted'
+      if (associated(key%chosen) .and. (word%quoted .or. scan(word%text, letters) == 1)) then
+         problem = ' = '//quoted(word%text)//' is unknown; write a number or '//quoted(key%choices(1))
+         return
+      else if (word%quoted) then
+         problem = ': '//quoted(word%text)//' is text in quotes; a ' &
+                   //trim(merge('whole number', 'number      ', associated(key%whole)))//' is wanted'
          return
       end if
-      call parse_real(word%text, number, message)
-      if (message /= '') then
-         if (index(word%text, '/') > 0) message = message//'; it is not worked out: write its value'
-         problem = ': '//message
+      if (associated(key%whole)) then
+         call parse_integer(word%text, whole, problem)
+         number = whole
+      else
+         call parse_real(word%text, number, problem)
+         if (problem /= '' .and. index(word%text, '/') > 0) problem = problem//'; it is not worked out: write its value'
+      end if
+      if (problem /= '') then
+         problem = ': '//problem
       else if (.not. key%range%holds(number)) then
-         problem = ' = '//to_text(number)//' is out of range: '//key%range%in_words()//' ['//key%unit//']'
+         problem = to_text(number)
+         if (associated(key%whole)) problem = to_text(whole)
+         problem = ' = '//problem//' is out of range: '//key%range%in_words()//' ['//trim(key%unit)//']'
       else
-         value = number
+         if (associated(key%number)) key%number = number
+         if (associated(key%vector)) key%vector(at) = number
+         if (associated(key%whole)) key%whole = whole
       end if
-   end subroutine take_real
-
-   ! A whole number within the key's range.
-   subroutine take_whole(key, word, problem)
-      type(key_t), intent(inout) :: key
-      type(value_t), intent(in) :: word
-      character(:), allocatable, intent(inout) :: problem
-      character(:), allocatable :: message
-      integer :: number
-
-      if (word%quoted) then
-         problem = ': '//quoted(word%text)//' is text in quotes; a whole number is wanted'
-         return
-      end if
-      call parse_integer(word%text, number, message)
-      if (message /= '') then
-         problem = ': '//message
-      else if (.not. key%range%holds(real(number, dp))) then
-         problem = ' = '//to_text(number)//' is out of range: '//key%range%in_words()//' ['//key%unit//']'
-      else
-         key%whole = number
-      end if
-   end subroutine take_whole
+   end subroutine take_number
 
    ! Free text on one line.
-   subroutine take_text(key, word, problem)
+   subroutine take_text(key, text, problem)
       type(key_t), intent(inout) :: key
-      type(value_t), intent(in) :: word
+      character(*), intent(in) :: text
       character(:), allocatable, intent(inout) :: problem
 
-      if (lacks_quotes(word)) then
-         problem = ': '//word%text//' is text and needs quotes: '//quoted(word%text)
-      else if (has_control_characters(word%text)) then
+      if (has_control_characters(text)) then
          problem = ' has a line end or another control character in it; write it on one line'
-      else if (len_trim(word%text) > len(key%words)) then
-         problem = ' has '//to_text(len_trim(word%text))//' letters; at most '//to_text(len(key%words))//' can be kept'
-      else if (word%text == '' .and. key%required) then
+      else if (len_trim(text) > len(key%words)) then
+         problem = ' has '//to_text(len_trim(text))//' letters; at most '//to_text(len(key%words))//' can be kept'
+      else if (text == '' .and. key%required) then
          problem = ' is empty'
       else
-         key%words = word%text
+         key%words = text
       end if
    end subroutine take_text
 
-   ! A word if it is one of the key's choices.
-   subroutine take_choice(key, word, value, problem)
-      type(key_t), intent(in) :: key
-      type(value_t), intent(in) :: word
-      character(*), intent(inout) :: value
+   ! A word if it is one of the key's choices; in a list, another one than those before it.
+   subroutine take_choice(key, text, problem)
+      type(key_t), intent(inout) :: key
+      character(*), intent(in) :: text
       character(:), allocatable, intent(inout) :: problem
-      character(:), allocatable :: meant
+      character(len(text)) :: word
 
-      if (any(key%choices == lower_case(word%text)) .and. .not. lacks_quotes(word)) then
-         value = lower_case(word%text)
-         return
-      end if
-      meant = nearest_word(word%text, key%choices)
-      if (lacks_quotes(word)) then
-         problem = ': '//word%text//' is text and needs quotes: '//quoted(word%text)
-      else if (meant /= '') then
-         problem = ' = '//quoted(word%text)//" is unknown; did you mean '"//meant//"'?"
+      word = lower_case(text)
+      if (.not. any(key%choices == word)) then
+         problem = nearest_word(text, key%choices)
+         if (problem /= '') problem = "did you mean '"//problem//"'?"
+         if (problem == '') problem = 'there are '//listed(key%choices)
+         problem = ' = '//quoted(text)//' is unknown; '//problem
+      else if (associated(key%words)) then
+         key%words = word
       else
-         problem = ' = '//quoted(word%text)//' is unknown; there are '//key%choice_text()
+         if (any(key%list == word)) problem = ' names '//quoted(word)//' twice'
+         key%list(key%used) = word
       end if
    end subroutine take_choice
 

@@ -5,7 +5,7 @@ module key_writer
    use known_solutions, only: known_solutions_t
    use resting_fluid, only: resting_force, resting_force_t
    use scene_keys, only: count_groups, groups, known_group_t, list_keys
-   use settings, only: fluid_settings, settings_t
+   use settings, only: settings_t
    use text, only: to_text
    implicit none
    private
@@ -28,7 +28,14 @@ contains
       integer :: g, i, number
 
       call lines%add_line('! The complete input of this run: all keys that have an effect, with the defaults it used.')
-      call tell_derived(scene%fluid, lines)
+      associate (fluid => scene%fluid)
+         if (fluid%find_reference_speed) then
+            call lines%add_line('! sound_speed follows from mach once a coarse run has found reference_speed.')
+         else if (fluid%mach > 0) then
+            call lines%add_line('! sound_speed = '//to_text(fluid%sound_speed)//' follows from mach and reference_speed.')
+         end if
+         if (fluid%reynolds > 0) call lines%add_line('! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.')
+      end associate
       copy = as_given(scene)
       do g = 1, size(groups)
          do number = 1, count_groups(copy, groups(g)%name)
@@ -37,7 +44,7 @@ contains
             call lines%add_line('&'//trim(groups(g)%name))
             do i = 1, keys%n
                associate (key => keys%items(i))
-                  if (key%active) call lines%add_line('   '//key%name//' = '//key%value_text())
+                  if (key%active) call lines%add_line('   '//trim(key%name)//' = '//key%value_text())
                end associate
             end do
             call lines%add_line('/')
@@ -45,30 +52,6 @@ contains
       end do
       content = lines%text()
    end function complete_input
-
-   ! Says what is worked out from other keys.
-   subroutine tell_derived(fluid, lines)
-      type(fluid_settings), intent(in) :: fluid
-      type(growing_text_t), intent(inout) :: lines
-
-      if (fluid%find_reference_speed) then
-         call lines%add_line('! sound_speed follows from mach once a coarse run has found reference_speed.')
-      else if (fluid%mach > 0) then
-         call lines%add_line('! sound_speed = '//to_text(fluid%sound_speed)//' follows from mach and reference_speed.')
-      end if
-      if (fluid%reynolds > 0) call lines%add_line('! viscosity = '//to_text(fluid%viscosity)//' follows from reynolds.')
-   end subroutine tell_derived
-
-   ! Without what is worked out from other keys: both at once would contradict each other when they are read.
-   pure type(settings_t) function as_given(scene)
-      type(settings_t), intent(in) :: scene
-
-      as_given = scene
-      associate (fluid => as_given%fluid)
-         if (fluid%find_reference_speed .or. fluid%mach > 0) fluid%sound_speed = 0
-         if (fluid%reynolds > 0) fluid%viscosity = 0
-      end associate
-   end function as_given
 
    !> The scene in as few lines as it takes; reading it gives the same complete input.
    function shortest_input(solutions, scene) result(content)
@@ -86,8 +69,8 @@ contains
       ! Hydrostatic pressure, the default, is none where nothing presses.
       force = resting_force(scene)
       do number = 1, size(copy%bodies)
-         associate (body => copy%bodies(number))
-            if (body%pressure == 'zero' .and. .not. force%size > 0) body%pressure = defaults%bodies(1)%pressure
+         associate (pressure => copy%bodies(number)%pressure)
+            if (pressure == 'zero' .and. .not. force%size > 0) pressure = defaults%bodies(1)%pressure
          end associate
       end do
       do g = 1, size(groups)
@@ -99,6 +82,50 @@ contains
       end do
       content = lines%text()
    end function shortest_input
+
+   !> A namelist of all keys with default, unit, range and meaning.
+   function template(solutions) result(content)
+      class(known_solutions_t), intent(in) :: solutions
+      character(:), allocatable :: content
+      type(growing_text_t) :: lines
+
+      call lines%add_line('! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.')
+      call lines%add_line('! Keys behind a ! have an effect only with another choice, which is named.')
+      call lines%add_line('! Units are SI or any other consistent set, such as d = g = density = 1.')
+      call describe_groups(solutions, .false., lines)
+      content = lines%text()
+   end function template
+
+   !> The list of all keys as Markdown, docs/input.md.
+   function tables(solutions) result(content)
+      class(known_solutions_t), intent(in) :: solutions
+      character(:), allocatable :: content
+      type(growing_text_t) :: lines
+
+      call lines%add_line('# Input keys')
+      call lines%add_line('')
+      call lines%add_line('This page is written by the program itself: `dynsph --keys > docs/input.md`.')
+      call lines%add_line('')
+      call lines%add_line('A scene is a namelist file; `dynsph --template` prints one to fill in, `dynsph --shortest FILE.nml` ' &
+                          //'what of a scene')
+      call lines%add_line('differs from the defaults. Units are SI or any other consistent set, such as d = g = density = 1, in ' &
+                          //'which times are')
+      call lines%add_line('t sqrt(g/d). `--set group.key=value` on the command line goes before the file; `body(2).key` means ' &
+                          //'the second &body.')
+      call describe_groups(solutions, .true., lines)
+      content = lines%text()
+   end function tables
+
+   ! Without what is worked out from other keys: both at once would contradict each other when they are read.
+   pure type(settings_t) function as_given(scene)
+      type(settings_t), intent(in) :: scene
+
+      as_given = scene
+      associate (fluid => as_given%fluid)
+         if (fluid%find_reference_speed .or. fluid%mach > 0) fluid%sound_speed = 0
+         if (fluid%reynolds > 0) fluid%viscosity = 0
+      end associate
+   end function as_given
 
    ! A group, if any of its keys must be given or is not the default.
    subroutine add_short_group(name, keys, default_keys, lines)
@@ -115,7 +142,7 @@ contains
             if (.not. key%active) cycle
             phrase = key%value_text()
             if (.not. key%required .and. phrase == default_keys%items(i)%value_text()) cycle
-            phrase = key%name//' = '//phrase
+            phrase = trim(key%name)//' = '//phrase
          end associate
          if (index(line, ' = ') > 0) line = line//','
          if (len(line//phrase) + 3 > widest) then
@@ -127,84 +154,52 @@ contains
       if (index(line, ' = ') > 0) call lines%add_line(line//' /')
    end subroutine add_short_group
 
-   !> A namelist of all keys with default, unit, range and meaning.
-   function template(solutions) result(content)
-      class(known_solutions_t), intent(in) :: solutions
-      character(:), allocatable :: content
-      type(settings_t), target :: defaults
-      type(growing_text_t) :: lines
-      type(keys_t) :: keys
-      integer :: g, i
-
-      call lines%add_line('! All keys of a scene with their defaults. Fill in what is required; the rest may be left out.')
-      call lines%add_line('! Keys behind a ! have an effect only with another choice, which is named.')
-      call lines%add_line('! Units are SI or any other consistent set, such as d = g = density = 1.')
-      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
-      do g = 1, size(groups)
-         call list_keys(defaults, solutions, groups(g)%name, 1, keys)
-         call lines%add_line('')
-         call lines%add_line('! '//described(groups(g)))
-         call lines%add_line('&'//trim(groups(g)%name))
-         do i = 1, keys%n
-            call lines%add_line('   ! '//keys%items(i)%meaning)
-            call lines%add_line('   '//template_line(keys%items(i)))
-         end do
-         call lines%add_line('/')
-      end do
-      content = lines%text()
-   end function template
-
-   ! `key = default   ! [unit] range`; a key that must be given is left empty: what is not filled in is refused.
-   function template_line(key) result(line)
+   ! What it means, and `key = default   ! [unit] range`; a key that must be given is left empty: what is not filled in is refused.
+   function template_lines(key) result(line)
       type(key_t), intent(in) :: key
       character(:), allocatable :: line
 
-      line = key%name//' ='
+      line = trim(key%name)//' ='
       if (.not. key%required) line = line//' '//key%value_text()
       if (.not. key%active) line = '! '//line
-      if (len(line) < value_width) line = line//repeat(' ', value_width - len(line))
-      line = line//'   ! '
-      if (key%unit /= '') line = line//'['//key%unit//'] '
+      line = '   ! '//trim(key%meaning)//new_line('a')//'   '//line//repeat(' ', max(0, value_width - len(line)))//'   ! '
+      if (key%unit /= '') line = line//'['//trim(key%unit)//'] '
       if (key%required) line = line//'required; '
       line = line//key%range_text()
-      if (key%condition /= '') line = line//'; only with '//key%condition
-   end function template_line
+      if (key%condition /= '') line = line//'; only with '//trim(key%condition)
+   end function template_lines
 
-   !> The list of all keys as Markdown, docs/input.md.
-   function tables(solutions) result(content)
+   ! All groups with the defaults of their keys.
+   subroutine describe_groups(solutions, as_tables, lines)
       class(known_solutions_t), intent(in) :: solutions
-      character(:), allocatable :: content
+      logical, intent(in) :: as_tables
+      type(growing_text_t), intent(inout) :: lines
       type(settings_t), target :: defaults
-      type(growing_text_t) :: lines
       type(keys_t) :: keys
       integer :: g, i
 
-      call lines%add_line('# Input keys')
-      call lines%add_line('')
-      call lines%add_line('This page is written by the program itself: `dynsph --keys > docs/input.md`.')
-      call lines%add_line('')
-      call lines%add_line('A scene is a namelist file; `dynsph --template` prints one to fill in, `dynsph --shortest FILE.nml` ' &
-                          //'what of a scene')
-      call lines%add_line('differs from the defaults. Units are SI or any other consistent set, such as d = g = density = 1, in ' &
-                          //'which times are')
-      call lines%add_line('t sqrt(g/d). `--set group.key=value` on the command line goes before the file; `body(2).key` means ' &
-                          //'the second &body.')
       allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
       do g = 1, size(groups)
          call list_keys(defaults, solutions, groups(g)%name, 1, keys)
          call lines%add_line('')
-         call lines%add_line('## &'//trim(groups(g)%name))
-         call lines%add_line('')
-         call lines%add_line(described(groups(g)))
-         call lines%add_line('')
-         call lines%add_line('| key | default | unit | range or choices | meaning |')
-         call lines%add_line('| --- | --- | --- | --- | --- |')
+         if (as_tables) then
+            call lines%add_line('## &'//trim(groups(g)%name))
+            call lines%add_line('')
+            call lines%add_line(described(groups(g)))
+            call lines%add_line('')
+            call lines%add_line('| key | default | unit | range or choices | meaning |')
+            call lines%add_line('| --- | --- | --- | --- | --- |')
+         else
+            call lines%add_line('! '//described(groups(g)))
+            call lines%add_line('&'//trim(groups(g)%name))
+         end if
          do i = 1, keys%n
-            call lines%add_line(table_row(keys%items(i)))
+            if (as_tables) call lines%add_line(table_row(keys%items(i)))
+            if (.not. as_tables) call lines%add_line(template_lines(keys%items(i)))
          end do
+         if (.not. as_tables) call lines%add_line('/')
       end do
-      content = lines%text()
-   end function tables
+   end subroutine describe_groups
 
    function table_row(key) result(row)
       type(key_t), intent(in) :: key
@@ -212,8 +207,8 @@ contains
 
       row = '`'//key%value_text()//'`'
       if (key%required) row = '**required**'
-      row = '| `'//key%name//'` | '//row//' | '//key%unit//' | '//key%range_text()//' | '//escaped(key%meaning)
-      if (key%condition /= '') row = row//' Only with '//key%condition//'.'
+      row = '| `'//trim(key%name)//'` | '//row//' | '//trim(key%unit)//' | '//key%range_text()//' | '//escaped(trim(key%meaning))
+      if (key%condition /= '') row = row//' Only with '//trim(key%condition)//'.'
       row = row//' |'
    end function table_row
 

@@ -4,14 +4,13 @@ module output_check
    use draft, only: draft_t
    use kinds, only: dp
    use name_table, only: name_table_t
-   use settings, only: is_wall
+   use scanner, only: letters
+   use settings, only: gauge_settings, is_wall, probe_settings
    use text, only: quoted, short, to_text
    implicit none
    private
 
    public :: check_output
-
-   real(dp), parameter :: slack = 1.0e-9_dp   ! of lengths in units of d: rounding of the input
 
 contains
 
@@ -21,21 +20,21 @@ contains
       type(name_table_t) :: columns   ! of probes.dat so far
       integer :: i
 
-      associate (output => draft%scene%output)
+      associate (output => draft%scene%output, probes => draft%scene%probes, gauges => draft%scene%gauges)
          call check_cadence(draft, 'energy', output%energy)
          call check_cadence(draft, 'probes', output%probes)
          call check_cadence(draft, 'errors', output%errors)
          call check_cadence(draft, 'snapshots', output%snapshots)
+         if (draft%notes%clean('output model') .and. draft%scene%model%diffusion /= 'dynamic') call check_fields(draft)
+         do i = 1, size(probes)
+            if (draft%notes%clean('probe scene domain')) call check_probe(draft, probes(i), i)
+            call check_name(draft, 'probe', i, trim(probes(i)%name), columns)
+         end do
+         do i = 1, size(gauges)
+            if (draft%notes%clean('gauge scene domain')) call check_gauge(draft, gauges(i), i)
+            call check_name(draft, 'gauge', i, trim(gauges(i)%name), columns)
+         end do
       end associate
-      call check_fields(draft)
-      do i = 1, size(draft%scene%probes)
-         call check_probe_place(draft, i)
-         call check_name(draft, 'probe', i, trim(draft%scene%probes(i)%name), columns)
-      end do
-      do i = 1, size(draft%scene%gauges)
-         call check_gauge_place(draft, i)
-         call check_name(draft, 'gauge', i, trim(draft%scene%gauges(i)%name), columns)
-      end do
    end subroutine check_output
 
    !> A cadence must be readable.
@@ -46,7 +45,7 @@ contains
       character(:), allocatable :: message
 
       call parsed%parse(phrase, message)
-      if (message /= '') call draft%mistake('output', key, '&output '//key//': '//message)
+      if (message /= '') call draft%mistake('output', 1, key, '&output '//key//': '//message)
    end subroutine check_cadence
 
    !> alpha_i and delta_i are kept for the dynamic model alone.
@@ -54,70 +53,68 @@ contains
       type(draft_t), intent(inout) :: draft
       integer :: i
 
-      if (.not. draft%clean('output model') .or. draft%scene%model%diffusion == 'dynamic') return
       do i = 1, draft%scene%output%n_fields
          associate (field => draft%scene%output%fields(i))
-            if (field /= 'alpha' .and. field /= 'delta') cycle
-            call draft%mistake('output', 'fields', '&output fields: '//quoted(field) &
-                               //' is the same everywhere with the constant model and not written; leave it out, ' &
-                               //"or set &model diffusion = 'dynamic'")
+            if (field == 'alpha' .or. field == 'delta') &
+               call draft%mistake('output', 1, 'fields', '&output fields: '//quoted(field) &
+                                  //' is the same everywhere with the constant model and not written; leave it out, ' &
+                                  //"or set &model diffusion = 'dynamic'")
          end associate
       end do
    end subroutine check_fields
 
    !> A probe must lie at a wall, all of it within the box.
-   subroutine check_probe_place(draft, number)
+   subroutine check_probe(draft, probe, number)
       type(draft_t), intent(inout) :: draft
+      type(probe_settings), intent(in) :: probe
       integer, intent(in) :: number
-      real(dp) :: distance(4), margin
+      real(dp) :: distance(4), half_spacing, margin, room
       logical :: walls(4)
       character(:), allocatable :: problem
       integer :: along
 
-      if (.not. draft%clean('probe scene domain')) return
-      associate (probe => draft%scene%probes(number), domain => draft%scene%domain)
+      associate (domain => draft%scene%domain)
          walls = is_wall([domain%left, domain%bottom, domain%right, domain%top])
          distance = [probe%position - domain%lower, domain%upper - probe%position]
-         margin = slack*draft%scene%scene%reference_length
-         problem = ''
-         if (.not. any(walls)) then
-            problem = 'needs a wall, and all sides of &domain are open'
-         else if (any(distance < -margin)) then
-            problem = 'lies outside the box'
-         else if (minval(distance, walls) > draft%scene%spacing()/2 + margin) then
-            problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall, more than dx/2 = ' &
-                      //short(draft%scene%spacing()/2)//'; put it on the wall'
-         else
-            along = 2
-            if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1
-            associate (room => 2*min(distance(along), distance(along + 2)))
-               if (max(probe%diameter, probe%length) > room + 2*margin) problem = 'is nearer to the end of its wall than its own ' &
-                  //'half; there a diameter or length of at most '//short(room)//' m fits'
-            end associate
-         end if
-         if (problem /= '') &
-            call draft%mistake('probe', 'position', '&probe position = '//to_text(probe%position)//' '//problem, number)
-         if (probe%diameter > 0 .and. probe%length > 0) &
-            call draft%mistake('probe', 'length', '&probe has a diameter and a length; it is either a disc or a segment: ' &
-                               //'give one of them', number)
       end associate
-   end subroutine check_probe_place
+      margin = draft%scene%margin()
+      half_spacing = draft%scene%spacing()/2
+      along = 2
+      if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1
+      room = min(distance(along), distance(along + 2))   ! for half of it
+      problem = ''
+      if (.not. any(walls)) then
+         problem = 'needs a wall, and all sides of &domain are open'
+      else if (any(distance < -margin)) then
+         problem = 'lies outside the box'
+      else if (minval(distance, walls) > half_spacing + margin) then
+         problem = 'lies '//short(minval(distance, walls))//' m from the nearest wall, more than dx/2 = ' &
+                   //short(half_spacing)//'; put it on the wall'
+      else if (max(probe%diameter, probe%length) > 2*room + 2*margin) then
+         problem = 'is nearer to the end of its wall than its own half; there a diameter or length of at most '//short(2*room) &
+                   //' m fits'
+      end if
+      if (problem /= '') &
+         call draft%mistake('probe', number, 'position', '&probe position = '//to_text(probe%position)//' '//problem)
+      if (probe%diameter > 0 .and. probe%length > 0) &
+         call draft%mistake('probe', number, 'length', '&probe has a diameter and a length; it is either a disc or a segment: ' &
+                            //'give one of them')
+   end subroutine check_probe
 
    !> A gauge must pass through the box.
-   subroutine check_gauge_place(draft, number)
+   subroutine check_gauge(draft, gauge, number)
       type(draft_t), intent(inout) :: draft
+      type(gauge_settings), intent(in) :: gauge
       integer, intent(in) :: number
       integer :: across
 
-      if (.not. draft%clean('gauge scene domain')) return
-      associate (gauge => draft%scene%gauges(number), domain => draft%scene%domain)
-         across = merge(2, 1, gauge%along == 'x')
-         if (gauge%at >= domain%lower(across) .and. gauge%at <= domain%upper(across)) return
-         call draft%mistake('gauge', 'at', '&gauge at = '//to_text(gauge%at) &
-                            //' lies outside the box; a line along '//trim(gauge%along)//' is between ' &
-                            //to_text(domain%lower(across))//' and '//to_text(domain%upper(across)), number)
+      across = merge(2, 1, gauge%along == 'x')
+      associate (lower => draft%scene%domain%lower(across), upper => draft%scene%domain%upper(across))
+         if (gauge%at >= lower .and. gauge%at <= upper) return
+         call draft%mistake('gauge', number, 'at', '&gauge at = '//to_text(gauge%at)//' lies outside the box; a line along ' &
+                            //trim(gauge%along)//' is between '//to_text(lower)//' and '//to_text(upper))
       end associate
-   end subroutine check_gauge_place
+   end subroutine check_gauge
 
    !> The name of a probe or gauge heads a column: it must be one word and its own.
    subroutine check_name(draft, group, number, name, columns)
@@ -126,12 +123,10 @@ contains
       integer, intent(in) :: number
       character(*), intent(in) :: name
       type(name_table_t), intent(inout) :: columns   !! those before it; on return with its own
-      character(*), parameter :: allowed = &
-                                 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-'
       character(:), allocatable :: problem
 
       problem = ''
-      if (verify(name, allowed) > 0) then
+      if (verify(name, letters//'0123456789_-') > 0) then
          problem = ' may have letters, digits, _ and - only'
       else if (name == 'time' .or. name == 'time_scaled') then
          problem = ' is the name of another column of probes.dat; choose another'
@@ -140,8 +135,8 @@ contains
          if (group == 'gauge') problem = problem//' or gauge'
       end if
       call columns%put(name, number)
-      if (problem /= '' .and. draft%clean(group)) &
-         call draft%mistake(group, 'name', '&'//group//' name = '//quoted(name)//problem, number)
+      if (problem /= '' .and. draft%notes%clean(group)) &
+         call draft%mistake(group, number, 'name', '&'//group//' name = '//quoted(name)//problem)
    end subroutine check_name
 
 end module output_check

@@ -8,6 +8,7 @@ module overrides
 
    public :: apply_override
 
+   character, parameter :: dropped = '-'   ! no name of a key
    character(*), parameter :: wanted = '; write --set group.key=value or --set body(2).key=value'
 
 contains
@@ -19,14 +20,26 @@ contains
       type(findings_t), intent(inout) :: notes
       type(entry_t) :: item
       type(group_t) :: new_group
-      character(:), allocatable :: group, key, name, problem
-      integer :: at, i, number
+      character(:), allocatable :: name, problem
+      integer :: at, dot, equals, i, number
 
       item%place%option = 'command line: --set '//trim(phrase)
-      call split_phrase(phrase, group, key, item%option, problem)
-      if (problem == '') call split_index(key, item%key, item%element, problem)
-      if (problem == '') call split_index(group, name, number, problem)
-      if (problem == '') call find_group(document, notes%file, name, number, at, problem)
+      problem = ''
+      at = 0
+      equals = index(phrase, '=')
+      dot = index(phrase(:max(equals - 1, 0)), '.')
+      if (equals == 0) then
+         problem = "there is no '='"//wanted
+      else if (dot == 0) then
+         problem = "there is no '.' between group and key"//wanted
+      else if (phrase(equals + 1:) == '') then
+         problem = "there is no value behind the '='"//wanted
+      else
+         item%option = trim(phrase(equals + 1:))
+         call split_index(phrase(dot + 1:equals - 1), item%key, item%element, problem)
+         if (problem == '') call split_index(phrase(:dot - 1), name, number, problem)
+         if (problem == '') call find_group(document, notes%file, name, number, at, problem)
+      end if
       if (problem /= '') then
          call notes%mistake(item%place, '', problem)
          return
@@ -38,50 +51,28 @@ contains
          at = document%n
       end if
       associate (there => document%groups(at))
-         do i = there%n, 1, -1
+         do i = 1, there%n
             if (there%entries(i)%key /= item%key) cycle
-            if (item%element == 0 .or. there%entries(i)%element == item%element) call there%drop_entry(i)
+            if (item%element > 0 .and. there%entries(i)%element /= item%element) cycle
+            there%entries(i)%key = dropped
+            there%entries(i)%known = .true.
          end do
          call there%add_entry(item)
       end associate
    end subroutine apply_override
 
-   ! Parts 'group.key=value' at its first '=' and the first '.' before it.
-   pure subroutine split_phrase(phrase, group, key, value, problem)
-      character(*), intent(in) :: phrase
-      character(:), allocatable, intent(out) :: group, key, value
-      character(:), allocatable, intent(out) :: problem      ! '' if it has this form
-      integer :: dot, equals
-
-      problem = ''
-      group = ''
-      key = ''
-      value = ''
-      equals = index(phrase, '=')
-      dot = index(phrase(:max(equals - 1, 0)), '.')
-      if (equals == 0) then
-         problem = "there is no '='"//wanted
-      else if (dot == 0) then
-         problem = "there is no '.' between group and key"//wanted
-      else if (phrase(equals + 1:) == '') then
-         problem = "there is no value behind the '='"//wanted
-      else
-         group = trim(adjustl(lower_case(phrase(:dot - 1))))
-         key = trim(adjustl(lower_case(phrase(dot + 1:equals - 1))))
-         value = trim(phrase(equals + 1:))
-      end if
-   end subroutine split_phrase
-
-   ! Parts 'name(2)' into 'name' and 2, 'name' into 'name' and 0.
-   pure subroutine split_index(phrase, name, number, problem)
-      character(*), intent(in) :: phrase
+   ! Parts 'Name(2)' into 'name' and 2, 'Name' into 'name' and 0.
+   pure subroutine split_index(words, name, number, problem)
+      character(*), intent(in) :: words
       character(:), allocatable, intent(out) :: name
       integer, intent(out) :: number
-      character(:), allocatable, intent(out) :: problem
+      character(:), allocatable, intent(out) :: problem      ! '' if it has this form
+      character(:), allocatable :: phrase
       integer :: open_at
 
       problem = ''
       number = 0
+      phrase = trim(adjustl(lower_case(words)))
       open_at = index(phrase, '(')
       name = phrase
       if (open_at > 0) then

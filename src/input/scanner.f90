@@ -24,218 +24,184 @@ module scanner
    integer, parameter :: most_repeats = 1000    ! of r*c; no key takes as many values
    integer, parameter :: shown_letters = 40     ! of a line that is quoted in a message; also the longest (index)
 
-   !> A place in the text that moves on and knows its line.
+   !> A place in the text, and where to tell what is wrong with it.
    type :: cursor_t
-      character(:), allocatable :: content
+      character(:), pointer :: content => null()
       integer :: at = 1
       integer :: line = 1
-   contains
-      procedure :: current
-      procedure :: advance
-      procedure :: skip_blanks
-      procedure :: skip_line
-      procedure :: read_name
-      procedure :: read_word
-      procedure :: rest_of_line
-      procedure :: look_for_key
+      character(:), allocatable :: group        ! that is being taken apart
+      type(findings_t), pointer :: notes => null()
    end type cursor_t
 
 contains
 
    !> Takes a whole file apart; what is wrong with its form is noted, the rest goes on.
    subroutine scan_namelist(content, document, notes)
-      character(*), intent(in) :: content
+      character(*), intent(in), target :: content
       type(document_t), intent(out) :: document
-      type(findings_t), intent(inout) :: notes
+      type(findings_t), intent(inout), target :: notes
       type(cursor_t) :: cursor
 
-      cursor%content = content
+      cursor%content => content
+      cursor%notes => notes
       if (index(content, byte_order_mark) == 1) cursor%at = 1 + len(byte_order_mark)
       do
-         call cursor%skip_blanks()
-         select case (cursor%current())
+         call skip_blanks(cursor)
+         select case (letter(cursor))
          case (nothing)
             exit
          case ('&')
-            call scan_group(cursor, document, notes)
+            call scan_group(cursor, document)
          case ('/')
             call notes%mistake(place_t(cursor%line), '', "this '/' closes no group")
-            call cursor%advance()
+            call advance(cursor)
          case default
-            call notes%mistake(place_t(cursor%line), '', quoted(cursor%rest_of_line()) &
+            call notes%mistake(place_t(cursor%line), '', quoted(rest_of_line(cursor)) &
                                //' stands outside the groups; a comment begins with !')
-            do while (scan(cursor%current(), '&'//nothing) == 0)   ! once for all its lines
-               call cursor%skip_line()
-               call cursor%skip_blanks()
+            do while (.not. here(cursor, '&'//nothing))   ! once for all its lines
+               call skip_line(cursor)
+               call skip_blanks(cursor)
             end do
          end select
       end do
    end subroutine scan_namelist
 
    ! One group, from its & to its / or &end.
-   subroutine scan_group(cursor, document, notes)
+   subroutine scan_group(cursor, document)
       type(cursor_t), intent(inout) :: cursor
       type(document_t), intent(inout) :: document
-      type(findings_t), intent(inout) :: notes
       type(group_t) :: group
       type(name_table_t) :: before   ! keys of the group so far
-      logical :: at_end
+      character(:), allocatable :: name
+      integer :: start
 
       group%place%line = cursor%line
-      call cursor%advance()
-      group%name = cursor%read_name()
+      call advance(cursor)
+      group%name = name_at(cursor)
+      cursor%group = group%name
       if (group%name == '' .or. group%name == 'end') then
-         call notes%mistake(group%place, '', "'&"//group%name//"' opens no group; write &name")
-         call cursor%skip_line()
+         call cursor%notes%mistake(group%place, '', "'&"//group%name//"' opens no group; write &name")
+         call skip_line(cursor)
          return
       end if
       do
-         call cursor%skip_blanks()
-         call look_for_end(cursor, group, notes, at_end)
-         if (at_end) exit
-         if (cursor%current() == ',') then
-            call cursor%advance()
-         else if (scan(cursor%current(), letters) > 0) then
-            call scan_entry(cursor, group, before, notes)
-         else
-            call notes%mistake(place_t(cursor%line), group%name, &
-                               '&'//group%name//": expected 'key = value', found "//quoted(cursor%rest_of_line()))
-            call cursor%skip_line()
-         end if
+         call skip_blanks(cursor)
+         select case (letter(cursor))
+         case ('a':'z', 'A':'Z')
+            call scan_entry(cursor, group, before)
+         case (',')
+            call advance(cursor)
+         case ('/')
+            call advance(cursor)
+            exit
+         case ('&')
+            start = cursor%at
+            call advance(cursor)
+            name = name_at(cursor)
+            if (name == 'end') exit
+            cursor%at = start
+            call refuse(cursor, group%place, " is not closed: its '/' is missing before &"//name)
+            exit
+         case (nothing)
+            call refuse(cursor, group%place, " is not closed: its '/' is missing at the end of the file")
+            exit
+         case default
+            call refuse(cursor, place_t(cursor%line), ": expected 'key = value', found "//quoted(rest_of_line(cursor)))
+            call skip_line(cursor)
+         end select
       end do
       call document%add_group(group)
    end subroutine scan_group
 
-   ! Steps over the end of a group if it is here.
-   subroutine look_for_end(cursor, group, notes, at_end)
-      type(cursor_t), intent(inout) :: cursor
-      type(group_t), intent(in) :: group
-      type(findings_t), intent(inout) :: notes
-      logical, intent(out) :: at_end
-      character(:), allocatable :: name
-      integer :: start
+   ! Notes a mistake in a group.
+   subroutine refuse(cursor, place, message)
+      type(cursor_t), intent(in) :: cursor
+      type(place_t), intent(in) :: place
+      character(*), intent(in) :: message
 
-      at_end = .true.
-      select case (cursor%current())
-      case ('/')
-         call cursor%advance()
-      case ('&')
-         start = cursor%at
-         call cursor%advance()
-         name = cursor%read_name()
-         if (name == 'end') return
-         cursor%at = start
-         call notes%mistake(group%place, group%name, '&'//group%name//" is not closed: its '/' is missing before &"//name)
-      case (nothing)
-         call notes%mistake(group%place, group%name, '&'//group%name//" is not closed: its '/' is missing at the end of the file")
-      case default
-         at_end = .false.
-      end select
-   end subroutine look_for_end
+      call cursor%notes%mistake(place, cursor%group, '&'//cursor%group//message)
+   end subroutine refuse
 
    ! One `key = values`.
-   subroutine scan_entry(cursor, group, before, notes)
+   subroutine scan_entry(cursor, group, before)
       type(cursor_t), intent(inout) :: cursor
       type(group_t), intent(inout) :: group
       type(name_table_t), intent(inout) :: before
-      type(findings_t), intent(inout) :: notes
       type(entry_t) :: item
-      integer :: first
+      character(:), allocatable :: element
+      integer, allocatable :: earlier(:)
 
       item%place%line = cursor%line
-      item%key = cursor%read_name()
-      call scan_element(cursor, item, notes, group%name)
-      call cursor%skip_blanks()
-      if (cursor%current() /= '=') then
-         call notes%mistake(item%place, group%name, '&'//group%name//": '"//item%key//"' is not followed by '='")
-         call cursor%skip_line()
+      item%key = name_at(cursor)
+      call scan_element(cursor, item)
+      call skip_blanks(cursor)
+      if (.not. here(cursor, '=')) then
+         call refuse(cursor, item%place, ": '"//item%key//"' is not followed by '='")
+         call skip_line(cursor)
          return
       end if
-      call cursor%advance()
-      call scan_values(cursor, item, notes, group%name)
-      first = mentioned(before, item)
-      if (first > 0 .and. .not. item%broken) then
-         call notes%mistake(item%place, group%name, '&'//group%name//' '//item%key//' is given twice, first at ' &
-                            //notes%place_text(group%entries(first)%place))
+      call advance(cursor)
+      call scan_values(cursor, item)
+      element = item%key//' '//to_text(item%element)
+      ! The whole key sets what any of its elements does.
+      earlier = [before%find(element), before%find(item%key//' 0')]
+      if (item%element == 0) earlier = [before%find(item%key)]
+      if (any(earlier > 0) .and. .not. item%broken) then
+         call refuse(cursor, item%place, ' '//item%key//' is given twice, first at ' &
+                     //cursor%notes%place_text(group%entries(minval(earlier, earlier > 0))%place))
          return
       end if
       call group%add_entry(item)
       if (before%find(item%key) == 0) call before%put(item%key, group%n)
-      if (before%find(with_element(item)) == 0) call before%put(with_element(item), group%n)
+      if (before%find(element) == 0) call before%put(element, group%n)
    end subroutine scan_entry
 
-   ! Position of the first entry of the group that sets the same value, 0 if there is none.
-   pure integer function mentioned(before, item) result(first)
-      type(name_table_t), intent(in) :: before
-      type(entry_t), intent(in) :: item
-      integer :: whole
-
-      first = before%find(with_element(item))
-      if (item%element == 0) then
-         first = before%find(item%key)
-      else
-         whole = before%find(item%key//' 0')
-         if (whole > 0 .and. (first == 0 .or. whole < first)) first = whole
-      end if
-   end function mentioned
-
-   pure function with_element(item) result(words)
-      type(entry_t), intent(in) :: item
-      character(:), allocatable :: words
-
-      words = item%key//' '//to_text(item%element)
-   end function with_element
-
    ! The (2) of `key(2) = value` if there is one.
-   subroutine scan_element(cursor, item, notes, group)
+   subroutine scan_element(cursor, item)
       type(cursor_t), intent(inout) :: cursor
       type(entry_t), intent(inout) :: item
-      type(findings_t), intent(inout) :: notes
-      character(*), intent(in) :: group
       character(:), allocatable :: inside, message
-      integer :: length
+      integer :: start
 
-      call cursor%skip_blanks()
-      if (cursor%current() /= '(') return
-      call cursor%advance()
-      length = scan(cursor%content(cursor%at:), ')='//newline) - 1
-      if (length < 0) length = len(cursor%content) - cursor%at + 1
-      inside = trim(adjustl(cursor%content(cursor%at:cursor%at + length - 1)))
-      cursor%at = cursor%at + length
-      if (cursor%current() == ')') call cursor%advance()
+      call skip_blanks(cursor)
+      if (.not. here(cursor, '(')) return
+      call advance(cursor)
+      start = cursor%at
+      do while (.not. here(cursor, ')='//newline//nothing))
+         cursor%at = cursor%at + 1
+      end do
+      inside = trim(adjustl(cursor%content(start:cursor%at - 1)))
+      if (here(cursor, ')')) call advance(cursor)
       call parse_integer(inside, item%element, message)
       if (message /= '' .or. item%element < 1) then
-         call notes%mistake(item%place, group, '&'//group//' '//item%key//'('//inside &
-                            //'): only one element at a time, as in '//item%key//'(2), is understood')
+         call refuse(cursor, item%place, ' '//item%key//'('//inside//'): only one element at a time, as in ' &
+                     //item%key//'(2), is understood')
          item%broken = .true.
          item%element = 0
       end if
    end subroutine scan_element
 
    ! Values up to the next key, the end of the group or the end of the text.
-   subroutine scan_values(cursor, item, notes, group)
+   subroutine scan_values(cursor, item)
       type(cursor_t), intent(inout) :: cursor
       type(entry_t), intent(inout) :: item
-      type(findings_t), intent(inout) :: notes
-      character(*), intent(in) :: group
-      logical :: key_here, value_due
+      logical :: value_due
       character(:), allocatable :: problem
 
       problem = ''
       value_due = .true.   ! two commas in a row, or one at the start, leave a value out
       do
-         call cursor%skip_blanks()
-         if (scan(cursor%current(), '/&'//nothing) > 0) exit
-         if (cursor%current() == ',') then
+         call skip_blanks(cursor)
+         if (here(cursor, ',')) then
             if (value_due) problem = 'a value is missing before a comma'
             value_due = .true.
-            call cursor%advance()
-         else if (cursor%current() == '=') then
+            call advance(cursor)
+         else if (here(cursor, '=')) then
             problem = "a second '=' without a key"
-            call cursor%skip_line()
+            call skip_line(cursor)
          else
-            call cursor%look_for_key(key_here)
-            if (key_here) exit
+            if (here(cursor, '/&'//nothing)) exit
+            if (key_at(cursor)) exit
             call scan_value(cursor, item, problem)
             value_due = .false.
          end if
@@ -243,7 +209,7 @@ contains
       if (item%n == 0 .and. problem == '') problem = 'it has no value'
       if (problem == '' .or. item%broken) return
       item%broken = .true.
-      call notes%mistake(item%place, group, '&'//group//' '//item%key//': '//problem)
+      call refuse(cursor, item%place, ' '//item%key//': '//problem)
    end subroutine scan_values
 
    ! One value, or r*c as r values.
@@ -256,23 +222,24 @@ contains
       logical :: in_quotes
 
       repeats = 1
-      in_quotes = scan(cursor%current(), quotes) > 0
+      star = 0
       word = ''
+      in_quotes = here(cursor, quotes)
       if (.not. in_quotes) then
-         word = cursor%read_word()
+         word = word_at(cursor)
          star = index(word, '*')
-         if (star > 1) then
-            call parse_integer(word(:star - 1), repeats, message)
-            if (message == '' .and. (repeats < 1 .or. repeats > most_repeats)) then
-               problem = quoted(word)//' repeats a value not 1 to '//to_text(most_repeats)//' times'
-               return
-            else if (message == '') then
-               word = behind(word, star)
-               in_quotes = word == '' .and. scan(cursor%current(), quotes) > 0
-               if (word == '' .and. .not. in_quotes) problem = 'a value is missing after '//to_text(repeats)//'*'
-            else
-               repeats = 1
-            end if
+      end if
+      if (star > 1) then
+         call parse_integer(word(:star - 1), repeats, message)
+         if (message /= '') then
+            repeats = 1
+         else if (repeats < 1 .or. repeats > most_repeats) then
+            problem = quoted(word)//' repeats a value not 1 to '//to_text(most_repeats)//' times'
+            return
+         else
+            word = behind(word, star)
+            in_quotes = word == '' .and. here(cursor, quotes)
+            if (word == '' .and. .not. in_quotes) problem = 'a value is missing after '//to_text(repeats)//'*'
          end if
       end if
       if (in_quotes) call scan_string(cursor, word, problem)
@@ -287,29 +254,31 @@ contains
       character(:), allocatable, intent(out) :: word
       character(:), allocatable, intent(inout) :: problem
       type(growing_text_t) :: letters_so_far
-      character :: letter, quote
+      character :: quote
+      logical :: closed
 
-      quote = cursor%current()
+      quote = letter(cursor)
+      closed = .false.
       do
-         call cursor%advance()
-         letter = cursor%current()
-         if (scan(letter, newline//nothing) > 0) exit
-         if (letter == quote) then
+         call advance(cursor)
+         if (here(cursor, newline//nothing)) exit
+         if (here(cursor, quote)) then
             ! Of a doubled quote one is part of the text.
-            call cursor%advance()
-            if (cursor%current() /= quote) exit
+            call advance(cursor)
+            closed = .not. here(cursor, quote)
+            if (closed) exit
          end if
-         call letters_so_far%add(letter)
+         call letters_so_far%add(letter(cursor))
       end do
       word = letters_so_far%text()
-      if (letter /= quote) problem = 'the text '//quote//trim(word)//' is not closed by '//quote//' on its line'
+      if (.not. closed) problem = 'the text '//quote//trim(word)//' is not closed by '//quote//' on its line'
    end subroutine scan_string
 
    !> Takes the values of a --set apart; the shell has taken the quotes, so they may lack.
    subroutine scan_option(item, free_text, notes, group)
-      type(entry_t), intent(inout) :: item       !! with an option; values are appended
-      logical, intent(in) :: free_text           !! without quotes it is one value as it stands
-      type(findings_t), intent(inout) :: notes
+      type(entry_t), intent(inout), target :: item   !! with an option; values are appended
+      logical, intent(in) :: free_text               !! without quotes it is one value as it stands
+      type(findings_t), intent(inout), target :: notes
       character(*), intent(in) :: group
       type(cursor_t) :: cursor
 
@@ -317,126 +286,125 @@ contains
          call item%add_value(trim(adjustl(item%option)), .true.)
          return
       end if
-      cursor%content = item%option
-      call scan_values(cursor, item, notes, group)
-      if (cursor%current() /= nothing .and. .not. item%broken) then
-         call notes%mistake(item%place, group, quoted(cursor%rest_of_line())//' is not part of a value')
-         item%broken = .true.
-      end if
-      if (allocated(item%values)) item%values%needs_quotes = .false.
+      cursor%content => item%option
+      cursor%notes => notes
+      cursor%group = group
+      call scan_values(cursor, item)
+      if (here(cursor, nothing) .or. item%broken) return
+      call notes%mistake(item%place, group, quoted(rest_of_line(cursor))//' is not part of a value')
+      item%broken = .true.
    end subroutine scan_option
 
-   ! The letter here.
-   pure character function current(self)
-      class(cursor_t), intent(in) :: self
+   ! The letter at the cursor.
+   pure character function letter(cursor)
+      type(cursor_t), intent(in) :: cursor
 
-      current = nothing
-      if (self%at <= len(self%content)) current = self%content(self%at:self%at)
-   end function current
+      letter = nothing
+      if (cursor%at <= len(cursor%content)) letter = cursor%content(cursor%at:cursor%at)
+   end function letter
+
+   ! Whether that is one of some.
+   pure logical function here(cursor, letters)
+      type(cursor_t), intent(in) :: cursor
+      character(*), intent(in) :: letters
+
+      here = scan(letter(cursor), letters) > 0
+   end function here
 
    ! Moves on by one letter.
-   pure subroutine advance(self)
-      class(cursor_t), intent(inout) :: self
+   pure subroutine advance(cursor)
+      type(cursor_t), intent(inout) :: cursor
 
-      if (self%current() == newline) self%line = self%line + 1
-      self%at = self%at + 1
+      if (here(cursor, newline)) cursor%line = cursor%line + 1
+      cursor%at = cursor%at + 1
    end subroutine advance
 
    ! Moves on over blanks, line ends and comments.
-   pure subroutine skip_blanks(self)
-      class(cursor_t), intent(inout) :: self
+   pure subroutine skip_blanks(cursor)
+      type(cursor_t), intent(inout) :: cursor
 
-      do while (self%at <= len(self%content))
-         if (self%current() == '!') then
-            call self%skip_line()
-         else if (scan(self%current(), blanks) > 0) then
-            call self%advance()
+      do while (here(cursor, blanks//'!'))
+         if (here(cursor, '!')) then
+            call skip_line(cursor)
          else
-            exit
+            call advance(cursor)
          end if
       end do
    end subroutine skip_blanks
 
    ! Moves to the end of the line.
-   pure subroutine skip_line(self)
-      class(cursor_t), intent(inout) :: self
+   pure subroutine skip_line(cursor)
+      type(cursor_t), intent(inout) :: cursor
 
-      do while (scan(self%current(), newline//nothing) == 0)
-         call self%advance()
+      do while (.not. here(cursor, newline//nothing))
+         call advance(cursor)
       end do
    end subroutine skip_line
 
-   ! A name in lower case; '' if none stands here.
-   function read_name(self) result(name)
-      class(cursor_t), intent(inout) :: self
+   ! Steps over a name, in lower case; '' if none stands here.
+   function name_at(cursor) result(name)
+      type(cursor_t), intent(inout) :: cursor
       character(:), allocatable :: name
       integer :: start
 
-      start = self%at
-      do while (scan(self%current(), name_letters) > 0)
-         self%at = self%at + 1
+      start = cursor%at
+      do while (here(cursor, name_letters))
+         cursor%at = cursor%at + 1
       end do
-      name = lower_case(self%content(start:self%at - 1))
-   end function read_name
+      name = lower_case(cursor%content(start:cursor%at - 1))
+   end function name_at
 
-   ! A value without quotes. A '/' inside it, as in 161/30, does not end the group here: the reader refuses such a value with
-   ! the right reason.
-   function read_word(self) result(word)
-      class(cursor_t), intent(inout) :: self
+   ! Steps over a value without quotes. A '/' inside it, as in 161/30, does not end the group here: the reader refuses such a
+   ! value with the right reason.
+   function word_at(cursor) result(word)
+      type(cursor_t), intent(inout) :: cursor
       character(:), allocatable :: word
-      character :: next
       integer :: start
 
-      start = self%at
+      start = cursor%at
       do
-         call self%advance()
-         if (scan(self%current(), blanks//',!=&'//quotes//nothing) > 0) exit
-         if (self%current() == '/') then
-            next = nothing
-            if (self%at < len(self%content)) next = self%content(self%at + 1:self%at + 1)
-            if (scan(next, name_letters//'.') == 0) exit
-         end if
+         call advance(cursor)
+         if (here(cursor, blanks//',!=&'//quotes//nothing)) exit
+         associate (next => cursor%content(cursor%at + 1:min(cursor%at + 1, len(cursor%content))))
+            if (here(cursor, '/') .and. scan(next, name_letters//'.') == 0) exit
+         end associate
       end do
-      word = self%content(start:self%at - 1)
-   end function read_word
+      word = cursor%content(start:cursor%at - 1)
+   end function word_at
 
    ! What is left of the line, shortened for a message.
-   pure function rest_of_line(self) result(rest)
-      class(cursor_t), intent(in) :: self
+   pure function rest_of_line(cursor) result(rest)
+      type(cursor_t), intent(in) :: cursor
       character(:), allocatable :: rest
       integer :: length
 
-      rest = self%content(self%at:min(self%at + shown_letters, len(self%content)))
+      rest = cursor%content(cursor%at:min(cursor%at + shown_letters, len(cursor%content)))
       length = scan(rest//newline, achar(13)//newline) - 1
       rest = trim(rest(:min(length, shown_letters)))
       if (length > shown_letters) rest = rest//'...'
    end function rest_of_line
 
    ! Whether `name =` or `name(...) =` stands here.
-   subroutine look_for_key(self, key_here)
-      class(cursor_t), intent(inout) :: self   ! as it was on return
-      logical, intent(out) :: key_here
+   logical function key_at(cursor)
+      type(cursor_t), intent(in) :: cursor
+      type(cursor_t) :: ahead
       character(:), allocatable :: name
-      integer :: before_at, before_line, length
+      integer :: last
 
-      key_here = .false.
-      if (scan(self%current(), letters) == 0) return
-      before_at = self%at
-      before_line = self%line
-      name = self%read_name()
-      call self%skip_blanks()
-      if (self%current() == '(') then
-         associate (rest => self%content(self%at:min(self%at + shown_letters, len(self%content))))
-            length = scan(rest, ')'//newline)
-            if (length == 0) length = len(rest)
-            if (rest(length:length) == newline) length = length - 1
-         end associate
-         self%at = self%at + length
-         call self%skip_blanks()
+      key_at = here(cursor, letters)
+      if (.not. key_at) return
+      ahead = cursor
+      name = name_at(ahead)
+      call skip_blanks(ahead)
+      if (here(ahead, '(')) then
+         last = ahead%at + shown_letters
+         do while (ahead%at <= last .and. .not. here(ahead, ')'//newline//nothing))
+            ahead%at = ahead%at + 1
+         end do
+         if (ahead%at <= last .and. here(ahead, ')')) ahead%at = ahead%at + 1
+         call skip_blanks(ahead)
       end if
-      key_here = self%current() == '='
-      self%at = before_at
-      self%line = before_line
-   end subroutine look_for_key
+      key_at = here(ahead, '=')
+   end function key_at
 
 end module scanner

@@ -3,7 +3,7 @@ module scene_input
    use derived_settings, only: resolve_settings
    use draft, only: draft_t
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: is_link, path_exists
+   use file_system, only: is_link, path_exists, read_whole_file
    use key_reader, only: read_values
    use known_solutions, only: known_solutions_t
    use overrides, only: apply_override
@@ -29,27 +29,28 @@ contains
       character(:), allocatable :: content
 
       call load_scene(path, content, problem)
-      if (problem%raised()) then
-         allocate (character(1) :: warnings(0))
-         allocate (scene%bodies(0), scene%probes(0), scene%gauges(0))
-         return
-      end if
       call read_settings_text(content, path, overrides, solutions, scene, warnings, problem)
    end subroutine read_settings
 
-   !> The text of a scene's file. Raises exit_files.
+   !> The text of a scene's file. Raises exit_files with the reason and what to do.
    subroutine load_scene(path, content, problem)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: content
       type(failure), intent(inout) :: problem
-      character(:), allocatable :: message
 
-      call load_file(path, content, message)
-      if (message /= '') call problem%raise(exit_files, path//': '//message)
+      content = ''
+      if (path_exists(path)) then
+         call read_whole_file(path, content, problem)
+      else if (is_link(path)) then
+         call problem%raise(exit_files, path//': this link leads to a file that does not exist; give the path of a scene')
+      else
+         call problem%raise(exit_files, &
+                            path//': there is no such file; give the path of a scene, for example input/dam_break.nml')
+      end if
    end subroutine load_scene
 
    !> Reads a scene from namelist text.
-   !! Raises exit_input with all mistakes in it.
+   !! Raises exit_input with all mistakes in it. Without a text, where reading it has failed, there is no scene.
    subroutine read_settings_text(content, file, overrides, solutions, scene, warnings, problem)
       character(*), intent(in) :: content
       character(*), intent(in) :: file                !! name for messages
@@ -62,61 +63,25 @@ contains
       character(:), allocatable :: message
       integer :: i
 
-      message = what_is_no_text(content)
-      if (message /= '') then
-         call problem%raise(exit_input, file//': '//message)
-         allocate (character(1) :: warnings(0))
-         allocate (scene%bodies(0), scene%probes(0), scene%gauges(0))
-         return
-      end if
       draft%notes%file = file
       allocate (draft%solutions, source=solutions)
-      call scan_namelist(content, draft%document, draft%notes)
-      do i = 1, size(overrides)
-         call apply_override(overrides(i), draft%document, draft%notes)
-      end do
-      call read_values(draft)
-      call resolve_settings(draft)
-      call check_settings(draft)
-      scene = draft%scene
+      message = what_is_no_text(content)
+      if (message /= '' .and. .not. problem%raised()) call problem%raise(exit_input, file//': '//message)
+      if (problem%raised()) then
+         allocate (scene%bodies(0), scene%probes(0), scene%gauges(0))
+      else
+         call scan_namelist(content, draft%document, draft%notes)
+         do i = 1, size(overrides)
+            call apply_override(overrides(i), draft%document, draft%notes)
+         end do
+         call read_values(draft)
+         call resolve_settings(draft)
+         call check_settings(draft)
+         scene = draft%scene
+      end if
       call draft%notes%warning_list(warnings)
       if (draft%notes%any_mistake()) call problem%raise(exit_input, draft%notes%mistake_text())
    end subroutine read_settings_text
-
-   !> Reads a whole file.
-   subroutine load_file(path, content, message)
-      character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: content
-      character(:), allocatable, intent(out) :: message   !! '' when read, else why not and what to do
-      character(:), allocatable :: longer
-      character :: letter
-      integer :: length, status, unit
-
-      message = ''
-      content = ''
-      if (.not. path_exists(path)) then
-         message = 'there is no such file; give the path of a scene, for example input/dam_break.nml'
-         if (is_link(path)) message = 'this link leads to a file that does not exist; give the path of a scene'
-         return
-      end if
-      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
-      if (status == 0) then
-         ! Letter by letter: a pipe does not know how long its text will be.
-         allocate (character(4096) :: longer)
-         length = 0
-         do
-            read (unit, iostat=status) letter
-            if (status /= 0) exit
-            if (length == len(longer)) longer = longer//repeat(' ', length)
-            length = length + 1
-            longer(length:length) = letter
-         end do
-         if (is_iostat_end(status)) status = 0
-         content = longer(:length)
-         close (unit)
-      end if
-      if (status /= 0) message = 'the file cannot be read; is it a text file that you may read?'
-   end subroutine load_file
 
    ! Why this is not a text with lines; '' if it is one.
    pure function what_is_no_text(content) result(message)

@@ -150,6 +150,7 @@ module settings
    contains
       procedure :: spacing => particle_spacing
       procedure :: smoothing_length
+      procedure :: margin
       procedure :: alpha_total
       procedure :: leans
       procedure :: side_kinds
@@ -172,6 +173,13 @@ contains
       smoothing_length = self%model%smoothing_ratio*self%spacing()
    end function smoothing_length
 
+   !> How far places may lie apart that are meant to be one [m]: they are given in decimals.
+   pure real(dp) function margin(self)
+      class(settings_t), intent(in) :: self
+
+      margin = 1.0e-9_dp*self%scene%reference_length
+   end function margin
+
    !> The alpha that acts everywhere: the constant model's and the fluid's viscosity together [-].
    !! Source: eq. 16, mu = alpha h c0 rho0/K.
    pure real(dp) function alpha_total(self)
@@ -189,11 +197,8 @@ contains
       type(body_settings), intent(in) :: body
       logical :: on_wall(2)   !! left, right
 
-      real(dp), parameter :: margin = 1.0e-9_dp   ! of d: edges are given in decimals
-
-      on_wall = is_wall([self%domain%left, self%domain%right]) &
-                .and. abs([body%lower(1) - self%domain%lower(1), body%upper(1) - self%domain%upper(1)]) &
-                <= margin*self%scene%reference_length
+      on_wall = is_wall([self%domain%left, self%domain%right]) .and. &
+                abs([body%lower(1) - self%domain%lower(1), body%upper(1) - self%domain%upper(1)]) <= self%margin()
    end function leans
 
    !> What the left, right, bottom and top side of the box are.

@@ -33,13 +33,15 @@ contains
       type(draft_t), intent(inout) :: draft
 
       call check_domain(draft)
-      call check_units(draft)
-      call check_mach(draft)
-      call check_stability(draft)
-      call check_viscosity(draft)
+      if (draft%notes%clean('fluid scene')) call check_units(draft)
+      if (draft%notes%clean('fluid')) call check_mach(draft)
+      if (draft%notes%clean('time model fluid scene')) call check_stability(draft)
+      ! With a sound speed that is a guess so far: when it is known.
+      if (draft%notes%clean('time model fluid scene') .and. .not. draft%scene%fluid%find_reference_speed) &
+         call check_viscosity(draft)
       call check_bodies(draft)
-      call check_particle_number(draft)
-      call check_step_number(draft)
+      if (draft%notes%clean('body scene')) call check_particle_number(draft)
+      if (draft%notes%clean('time model fluid scene')) call check_step_number(draft)
       call draft%solutions%check(draft%document, draft%scene, draft%notes)
       call check_output(draft)
    end subroutine check_settings
@@ -49,12 +51,11 @@ contains
       type(draft_t), intent(inout) :: draft
       real(dp), parameter :: largest = 1.0e30_dp
 
-      if (.not. draft%clean('fluid scene')) return
       associate (d => draft%scene%scene%reference_length, rho => draft%scene%fluid%density, c0 => draft%scene%fluid%sound_speed)
          if (maxval(abs(log10([d, rho, c0]))) < log10(largest) .and. abs(log10(rho) + 2*log10(c0)) < log10(largest)) return
-         call draft%mistake('fluid', 'density', '&fluid: reference_length = '//short(d) &
-                            //', density = '//short(rho)//', sound speed = '//short(c0)//' and density*(sound speed)**2 must all ' &
-                            //'be between 1e-30 and 1e30: choose other units')
+         call draft%mistake('fluid', 1, 'density', '&fluid: reference_length = '//short(d)//', density = '//short(rho) &
+                            //', sound speed = '//short(c0)//' and density*(sound speed)**2 must all be between 1e-30 and ' &
+                            //'1e30: choose other units')
       end associate
    end subroutine check_units
 
@@ -64,7 +65,6 @@ contains
       real(dp) :: mach
       character(:), allocatable :: key
 
-      if (.not. draft%clean('fluid')) return
       call check_speeds(draft)
       associate (fluid => draft%scene%fluid)
          mach = fluid%reference_speed/fluid%sound_speed
@@ -73,11 +73,10 @@ contains
          if (.not. fluid%mach > 0.0_dp) key = 'sound_speed'
       end associate
       if (mach > largest_mach*(1.0_dp + slack)) then
-         call draft%mistake('fluid', key, '&fluid: reference_speed/sound_speed = ' &
-                            //to_text(mach)//' is a Mach number above '//to_text(largest_mach) &
-                            //'; raise sound_speed, best to 10 times reference_speed')
+         call draft%mistake('fluid', 1, key, '&fluid: reference_speed/sound_speed = '//to_text(mach)//' is a Mach number above ' &
+                            //to_text(largest_mach)//'; raise sound_speed, best to 10 times reference_speed')
       else if (mach > good_mach*(1.0_dp + slack)) then
-         call draft%warning('fluid', key, '&fluid: the Mach number '//to_text(mach) &
+         call draft%warning('fluid', 1, key, '&fluid: the Mach number '//to_text(mach) &
                             //' is above 0.1: the density will vary by more than 1 %')
       end if
    end subroutine check_mach
@@ -88,33 +87,33 @@ contains
       real(dp) :: speed
       integer :: i
 
-      if (draft%clean('domain')) call check_speed(maxval(abs(draft%scene%domain%wall_speeds)), '&domain: the speed of a wall', &
-                                                  'domain', 'wall_speeds', 1, draft)
-      if (.not. draft%clean('body exact force')) return
+      if (draft%notes%clean('domain')) call check_speed(draft, maxval(abs(draft%scene%domain%wall_speeds)), 'domain', 1, &
+                                                        'wall_speeds', '&domain: the speed of a wall')
+      if (.not. draft%notes%clean('body exact force')) return
       do i = 1, size(draft%scene%bodies)
          associate (body => draft%scene%bodies(i))
             speed = max(start_speed(draft%scene, body, draft%solutions), &
                         sqrt(draft%scene%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
-            call check_speed(speed, '&body number '//to_text(i)//': its speed, given or by the forces on it,', &
-                             'body', 'velocity', i, draft)
          end associate
+         call check_speed(draft, speed, 'body', i, 'velocity', '&body number '//to_text(i) &
+                          //': its speed, given or by the forces on it,')
       end do
    end subroutine check_speeds
 
    !> One speed must be slower than sound.
-   subroutine check_speed(speed, what, group, key, number, draft)
+   subroutine check_speed(draft, speed, group, number, key, what)
+      type(draft_t), intent(inout) :: draft
       real(dp), intent(in) :: speed          !! [m/s]
-      character(*), intent(in) :: what       !! for the message
       character(*), intent(in) :: group, key !! that says it
       integer, intent(in) :: number          !! of the group
-      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: what       !! for the message
 
       associate (c0 => draft%scene%fluid%sound_speed)
          if (speed > 2*c0) then
             call draft%notes%mistake(draft%document%place_of(group, number, key), 'fluid', what//' is '//short(speed/c0) &
                                      //' times the sound speed '//short(c0)//'; raise sound_speed (or lower mach)')
          else if (speed > largest_mach*c0) then
-            call draft%warning(group, key, what//' is '//short(speed/c0)//' times the sound speed', number)
+            call draft%warning(group, number, key, what//' is '//short(speed/c0)//' times the sound speed')
          end if
       end associate
    end subroutine check_speed
@@ -129,51 +128,47 @@ contains
       character(:), allocatable :: what
       logical :: damped   ! sound by diffusive terms alone, so that limits go together
 
-      if (.not. draft%clean('time model fluid scene')) return
-      damped = draft%scene%time%integrator == 'rk2'
-      ! With a sound speed that is a guess, viscosity is no known alpha: when it is known.
-      if (damped .and. draft%scene%fluid%find_reference_speed .and. draft%scene%fluid%viscosity > 0.0_dp) return
-      stability = stability_of(draft%scene)
-      associate (cfl => draft%scene%time%cfl, model => draft%scene%model)
-         delta = constant_delta(draft%scene)
-         limit = stability%largest_cfl(delta, 0.0_dp)
-         if (damped) limit = stability%largest_cfl(delta, draft%scene%alpha_total())
+      associate (scene => draft%scene, cfl => draft%scene%time%cfl, model => draft%scene%model)
+         damped = scene%time%integrator == 'rk2'
+         ! With a sound speed that is a guess, viscosity is no known alpha: when it is known.
+         if (damped .and. scene%fluid%find_reference_speed .and. scene%fluid%viscosity > 0.0_dp) return
+         stability = stability_of(scene)
+         delta = constant_delta(scene)
+         limit = stability%largest_cfl(delta, merge(scene%alpha_total(), 0.0_dp, damped))
          if (.not. limit > 0.0_dp) then
-            call draft%mistake('time', 'integrator', '&time integrator = ' &
-                               //quoted(draft%scene%time%integrator)//' needs a constant alpha or delta that damps sound ' &
-                               //'neither too weakly nor too strongly for cfl = 0.2; with ' &
-                               //short(draft%scene%alpha_total())//' and '//short(delta)//': use rk4')
+            call draft%mistake('time', 1, 'integrator', '&time integrator = '//quoted(scene%time%integrator) &
+                               //' needs a constant alpha or delta that damps sound neither too weakly nor too strongly for ' &
+                               //'cfl = 0.2; with '//short(scene%alpha_total())//' and '//short(delta)//': use rk4')
          else if (cfl > limit*(1.0_dp + slack)) then
-            what = 'the limit of '//trim(draft%scene%time%integrator)//' is '//rounded_down(limit)
+            what = 'the limit of '//trim(scene%time%integrator)//' is '//rounded_down(limit)
             if (damped) then
-               what = what//' with alpha = '//short(draft%scene%alpha_total())//' and delta = '//short(delta)
+               what = what//' with alpha = '//short(scene%alpha_total())//' and delta = '//short(delta)
             else if (limit < stability%sound) then
                what = 'with delta = '//to_text(delta)//' the limit is '//rounded_down(limit)//' = ' &
                       //rounded_down(stability%times_delta)//'/delta'
             end if
             if (cfl <= stability%sound .and. .not. damped) &
                what = what//'; lower cfl, or delta to '//rounded_down(stability%times_delta/cfl)
-            call beyond_limit('time', 'cfl', what, draft)
+            call beyond_limit(draft, 'time', 'cfl', what)
          else if (model%diffusion == 'dynamic' .and. model%limit*cfl > many_times*stability%times_delta) then
-            call draft%warning('model', 'limit', '&model limit = '//to_text(model%limit) &
-                               //' may make steps '//short(model%limit*cfl/stability%times_delta)//' times shorter: delta_i = ' &
-                               //to_text(model%limit)//' is stable to cfl = ' &
-                               //rounded_down(stability%times_delta/model%limit)//' only')
+            call draft%warning('model', 1, 'limit', '&model limit = '//to_text(model%limit)//' may make steps ' &
+                               //short(model%limit*cfl/stability%times_delta)//' times shorter: delta_i = '//to_text(model%limit) &
+                               //' is stable to cfl = '//rounded_down(stability%times_delta/model%limit)//' only')
          end if
       end associate
    end subroutine check_stability
 
    !> A warning or a mistake, as the user wants it.
-   subroutine beyond_limit(group, key, what, draft)
+   subroutine beyond_limit(draft, group, key, what)
+      type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: group, key  !! to be changed
       character(*), intent(in) :: what        !! the limit, and what to do
-      type(draft_t), intent(inout) :: draft
 
       associate (cfl => '&time cfl = '//to_text(draft%scene%time%cfl))
          if (draft%scene%time%beyond_limit == 'refuse') then
             call draft%notes%mistake(draft%document%place_of(group, 1, key), 'time', cfl//' is unstable: '//what)
          else
-            call draft%warning(group, key, cfl//' will not be used: '//what)
+            call draft%warning(group, 1, key, cfl//' will not be used: '//what)
          end if
       end associate
    end subroutine beyond_limit
@@ -190,8 +185,7 @@ contains
    pure real(dp) function constant_delta(scene) result(delta)
       type(settings_t), intent(in) :: scene
 
-      delta = 0.0_dp
-      if (scene%model%diffusion == 'constant') delta = scene%model%delta
+      delta = merge(scene%model%delta, 0.0_dp, scene%model%diffusion == 'constant')
    end function constant_delta
 
    !> Says when two viscosities act, and when the viscous limit will rule the time step.
@@ -201,37 +195,33 @@ contains
       real(dp) :: alpha, by_model, room, factor
       character(:), allocatable :: advice, group, key
 
-      if (.not. draft%clean('time model fluid scene')) return
-      ! With a sound speed that is a guess so far: when it is known.
-      if (draft%scene%fluid%find_reference_speed) return
-      alpha = draft%scene%alpha_total()
-      by_model = 0.0_dp
-      if (draft%scene%model%diffusion == 'constant') by_model = draft%scene%model%alpha
-      group = 'fluid'
-      key = 'viscosity'
-      if (draft%scene%fluid%reynolds > 0.0_dp) key = 'reynolds'
-      if (draft%scene%fluid%viscosity > 0.0_dp .and. by_model > 0.0_dp) then
-         call draft%warning(group, key, '&fluid viscosity and &model alpha = '//to_text(by_model)//' both act, alpha = ' &
-                            //short(alpha)//' in all; set alpha = 0 for the viscosity alone')
-      end if
-      stability = stability_of(draft%scene)
-      room = stability%times_alpha/min(draft%scene%time%cfl, stability%sound)
-      ! All limits of rk2 go together: check_stability.
-      if (draft%scene%time%integrator == 'rk2' .or. alpha <= room*(1.0_dp + slack)) return
-      if (by_model >= room .or. .not. draft%scene%fluid%viscosity > 0.0_dp) then
-         group = 'model'
-         key = 'alpha'
-         advice = 'lower alpha of &model to '//rounded_down(room)
-      else
-         factor = (alpha - by_model)/(room - by_model)
-         advice = 'not so with &scene resolution below '//rounded_down(draft%scene%scene%resolution/factor) &
-                  //' or a sound speed above '//rounded_up(draft%scene%fluid%sound_speed*factor)
-      end if
+      associate (scene => draft%scene, fluid => draft%scene%fluid)
+         alpha = scene%alpha_total()
+         by_model = merge(scene%model%alpha, 0.0_dp, scene%model%diffusion == 'constant')
+         group = 'fluid'
+         key = 'viscosity'
+         if (fluid%reynolds > 0.0_dp) key = 'reynolds'
+         if (fluid%viscosity > 0.0_dp .and. by_model > 0.0_dp) &
+            call draft%warning(group, 1, key, '&fluid viscosity and &model alpha = '//to_text(by_model)//' both act, alpha = ' &
+                               //short(alpha)//' in all; set alpha = 0 for the viscosity alone')
+         stability = stability_of(scene)
+         room = stability%times_alpha/min(scene%time%cfl, stability%sound)
+         ! All limits of rk2 go together: check_stability.
+         if (scene%time%integrator == 'rk2' .or. alpha <= room*(1.0_dp + slack)) return
+         if (by_model >= room .or. .not. fluid%viscosity > 0.0_dp) then
+            group = 'model'
+            key = 'alpha'
+            advice = 'lower alpha of &model to '//rounded_down(room)
+         else
+            factor = (alpha - by_model)/(room - by_model)
+            advice = 'not so with &scene resolution below '//rounded_down(scene%scene%resolution/factor) &
+                     //' or a sound speed above '//rounded_up(fluid%sound_speed*factor)
+         end if
+      end associate
       ! alpha = K nu/(c0 h): the limit of alpha is one of dt nu/h**2.
-      call beyond_limit(group, key, 'with alpha = '//short(alpha)//', viscosity included, the viscous limit dt <= ' &
+      call beyond_limit(draft, group, key, 'with alpha = '//short(alpha)//', viscosity included, the viscous limit dt <= ' &
                         //rounded_down(stability%times_alpha/k_2d)//' h**2/nu is that of cfl = ' &
-                        //rounded_down(stability%times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice, &
-                        draft)
+                        //rounded_down(stability%times_alpha/alpha)//', '//short(alpha/room)//' times as many steps; '//advice)
    end subroutine check_viscosity
 
    !> A run that cannot end is a slip: with more steps than can be counted, time would not even get on by one.
@@ -241,17 +231,17 @@ contains
       real(dp) :: cfl, per_step
       character(:), allocatable :: advice
 
-      if (.not. draft%clean('time model fluid scene')) return
-      if (draft%scene%time%max_steps > 0) return
-      stability = stability_of(draft%scene)
-      cfl = min(draft%scene%time%cfl, stability%largest_cfl(constant_delta(draft%scene), draft%scene%alpha_total()))
-      per_step = cfl*draft%scene%smoothing_length()/draft%scene%fluid%sound_speed
-      if (draft%scene%time%end_time <= most_steps*per_step) return
-      advice = 'raise cfl, or lower end_time or the sound speed '//short(draft%scene%fluid%sound_speed)
-      if (cfl < draft%scene%time%cfl) &
-         advice = 'lower '//shortening_key(draft%scene, stability)//', which makes them so short, or end_time'
-      call draft%mistake('time', 'end_time', '&time end_time = '//to_text(draft%scene%time%end_time) &
-                         //' is more than '//to_text(most_steps)//' steps of '//short(per_step)//': '//advice)
+      associate (scene => draft%scene, time => draft%scene%time)
+         if (time%max_steps > 0) return
+         stability = stability_of(scene)
+         cfl = min(time%cfl, stability%largest_cfl(constant_delta(scene), scene%alpha_total()))
+         per_step = cfl*scene%smoothing_length()/scene%fluid%sound_speed
+         if (time%end_time <= most_steps*per_step) return
+         advice = 'raise cfl, or lower end_time or the sound speed '//short(scene%fluid%sound_speed)
+         if (cfl < time%cfl) advice = 'lower '//shortening_key(scene, stability)//', which makes them so short, or end_time'
+         call draft%mistake('time', 1, 'end_time', '&time end_time = '//to_text(time%end_time)//' is more than ' &
+                            //to_text(most_steps)//' steps of '//short(per_step)//': '//advice)
+      end associate
    end subroutine check_step_number
 
    ! What limits the step most.
@@ -272,18 +262,16 @@ contains
       real(dp) :: particles
       integer :: i
 
-      if (.not. draft%clean('body scene')) return
       particles = 0.0_dp
       do i = 1, size(draft%scene%bodies)
          associate (body => draft%scene%bodies(i))
             particles = particles + product((body%upper - body%lower)/draft%scene%spacing())
          end associate
       end do
-      if (particles >= most_particles) then
-         call draft%mistake('scene', 'resolution', '&scene resolution = ' &
-                            //to_text(draft%scene%scene%resolution)//' makes about '//rounded_down(particles) &
-                            //' particles; at most '//to_text(most_particles)//' are possible: lower it')
-      end if
+      if (particles >= most_particles) &
+         call draft%mistake('scene', 1, 'resolution', '&scene resolution = '//to_text(draft%scene%scene%resolution) &
+                            //' makes about '//rounded_down(particles)//' particles; at most '//to_text(most_particles) &
+                            //' are possible: lower it')
    end subroutine check_particle_number
 
 end module settings_check
