@@ -3,7 +3,7 @@
 !!
 !! Each call returns the system's reason, '' when it succeeded.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_null_char, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_long, c_null_char, &
       c_null_funptr, c_ptr, c_size_t
    use errors, only: exit_files, failure
    use growing_text, only: growing_text_t
@@ -84,6 +84,28 @@ module file_system
          import :: glob_result
          type(glob_result), intent(inout) :: found
       end subroutine c_globfree
+
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+
+      integer(c_int) function c_fseek(file, offset, whence) bind(c, name='fseek')
+         import :: c_int, c_long, c_ptr
+         type(c_ptr), value :: file
+         integer(c_long), value :: offset
+         integer(c_int), value :: whence
+      end function c_fseek
+
+      integer(c_long) function c_ftell(file) bind(c, name='ftell')
+         import :: c_long, c_ptr
+         type(c_ptr), value :: file
+      end function c_ftell
+
+      integer(c_int) function c_fclose(file) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: file
+      end function c_fclose
 
       type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
          import :: c_ptr
@@ -222,7 +244,7 @@ contains
       if (status == 0) then
          write (unit, iostat=status, iomsg=message) text
          if (status == 0) then
-            if (.not. has_size(unit, len(text, i8))) then
+            if (.not. has_size(unit, partial_path(path), len(text, i8))) then
                status = 1
                message = no_space
             end if
@@ -265,18 +287,31 @@ contains
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
    end subroutine read_whole_file
 
-   !> True when the system has taken all bytes written to a unit; gfortran's FLUSH and CLOSE
-   !! keep a full disk to themselves.
-   logical function has_size(unit, bytes)
+   !> True when the system has taken all bytes written to a unit. gfortran's FLUSH and CLOSE keep a full disk to themselves, and
+   !! INQUIRE counts what the disk did not take.
+   logical function has_size(unit, path, bytes)
       integer, intent(in) :: unit
+      character(*), intent(in) :: path
       integer(i8), intent(in) :: bytes   !! written so far
-      integer(i8) :: size_now
       integer :: status
 
       flush (unit, iostat=status)
-      inquire (unit=unit, size=size_now)
-      has_size = status == 0 .and. size_now >= bytes
+      has_size = status == 0 .and. size_of_file(path) >= bytes
    end function has_size
+
+   ! As the system has it; -1 if it cannot be read.
+   integer(i8) function size_of_file(path) result(bytes)
+      character(*), intent(in) :: path
+      integer(c_int), parameter :: from_end = 2   ! SEEK_END
+      integer(c_int) :: ignored
+      type(c_ptr) :: file
+
+      bytes = -1
+      file = c_fopen(c_text(path), 'r'//c_null_char)
+      if (.not. c_associated(file)) return
+      if (c_fseek(file, 0_c_long, from_end) == 0) bytes = c_ftell(file)
+      ignored = c_fclose(file)
+   end function size_of_file
 
    !> The system's words for the call that returned this status; '' for success.
    function reason_of(status) result(reason)

@@ -21,7 +21,7 @@ module linear_stability
    !! (docs/equations.md).
    type :: margins_t
       !> On a lattice the diffusive terms take up to 3 % of the limit of sound. In disordered fluid an oscillating drop and a
-      !! dam break lose their energy balance at 0.95 of it, not at 0.90.
+      !! dam break lose their energy balance at 0.95 of it; at 0.90 the dam break does from every other start.
       real(dp) :: sound = 0.84_dp
       !> The rate at each particle follows its kernel sum (`frozen_terms.crowding`). Dam breaks then run away at 1, not at 0.9.
       real(dp) :: diffusion = 0.9_dp

@@ -7,7 +7,8 @@ module hdf5_writer
    use, intrinsic :: iso_fortran_env, only: int8
    use errors, only: exit_files, failure
    use file_system, only: delete_file, partial_path, publish
-   use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dwrite_f, h5eset_auto_f, &
+   use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dont_atexit_f, h5dwrite_f, &
+      h5eset_auto_f, &
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
       h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
       h5t_std_u8le, h5t_str_nullpad_f, h5t_string, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f, &
@@ -54,6 +55,8 @@ contains
       self%path = trim(path)
       self%failed = .false.
       if (.not. library_open) then
+         ! Files are closed here; at exit the library would crash on one that a full disk has kept open.
+         call h5dont_atexit_f(status)
          call h5open_f(status)
          call note(self, status, 'the HDF5 library')
          library_open = .not. self%failed
@@ -168,7 +171,7 @@ contains
       call put(self, name, h5t_std_u8le, shape(values, hsize_t), c_loc(values))
    end subroutine put_bytes
 
-   !> Attaches a text of fixed length, as VTK's reader wants it; h5py shows it as bytes.
+   !> Attaches a text of fixed length, as VTK's reader wants it; h5py shows it as bytes. Nothing for an empty text.
    subroutine put_label(self, owner, name, value)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: owner, name, value
@@ -176,16 +179,17 @@ contains
       integer(hid_t) :: string
       integer :: i, status
 
-      if (self%failed) return
+      if (self%failed .or. len(value) == 0) return
       bytes = [(value(i:i), i=1, len(value))]
       call h5tcopy_f(h5t_fortran_s1, string, status)
+      if (any(iachar(bytes) > 127)) call h5tset_cset_f(string, h5t_cset_utf8_f, status)
       call h5tset_size_f(string, len(value, kind(0_hsize_t)), status)
       call h5tset_strpad_f(string, h5t_str_nullpad_f, status)
       call put_attribute(self, owner, name, string, [integer(hsize_t) ::], c_loc(bytes))
       call h5tclose_f(string, status)
    end subroutine put_label
 
-   !> Attaches a UTF-8 text of any length.
+   !> Attaches a UTF-8 text of any length, which h5py shows as a text. HDF5 keeps it in a heap without a checksum.
    subroutine attach_text(self, owner, name, value)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: owner   !! a group or dataset

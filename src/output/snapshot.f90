@@ -59,6 +59,7 @@ contains
       call file%make_group(grid)
       call file%attach(grid, 'Version', [1, 0])
       call file%put_label(grid, 'Type', 'UnstructuredGrid')
+      call file%put_label(grid, 'title', text_or_none(head%title))   ! for readers that must not crash on a damaged heap
       call write_cells(file, size(x))
       call file%put_vectors(grid//'/Points', x, y, single .and. fine_enough(x, y, head%spacing))
       call label(file, grid//'/Points', 'length', 'position (x, y, 0)')

@@ -43,6 +43,8 @@ contains
       character(*), intent(in) :: units(:)      !! (columns)
       type(failure), intent(inout) :: problem   !! exit_files: cannot be written
       character(256) :: message
+      character(:), allocatable :: last
+      character(3) :: number
       integer :: i, status
 
       self%path = trim(path)
@@ -53,16 +55,33 @@ contains
          call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
          return
       end if
+      self%bytes = 0
       do i = 1, size(head)
-         write (self%unit, '(a)', iostat=status, iomsg=message) trim('# '//head(i))
+         call put(trim('# '//head(i)))
       end do
-      write (self%unit, '(a)', iostat=status, iomsg=message) '# columns, name [unit]:'
+      call put('# columns, name [unit]:')
       do i = 1, size(names)
-         write (self%unit, '(a, i3, 5a)', iostat=status, iomsg=message) '# ', i, '  ', trim(names(i)), ' [', trim(units(i)), ']'
+         write (number, '(i3)') i
+         call put('# '//number//'  '//trim(names(i))//' ['//trim(units(i))//']')
       end do
-      write (self%unit, '(*(a))', iostat=status, iomsg=message) (right_aligned(names(i)), i=1, size(names))
-      self%bytes = self%row_bytes
+      last = ''
+      do i = 1, size(names)
+         last = last//right_aligned(names(i))
+      end do
+      call put(last)
       call flush_now(self, wall_seconds(), problem)
+
+   contains
+
+      ! A line; whether there was room for it is seen at the end.
+      subroutine put(line)
+         character(*), intent(in) :: line
+         integer :: ignored
+
+         write (self%unit, '(a)', iostat=ignored) line
+         self%bytes = self%bytes + len(line) + 1
+      end subroutine put
+
    end subroutine create
 
    !> Adds a row. NaN and infinities are written as such.
@@ -109,7 +128,8 @@ contains
       real(dp), intent(in) :: now   !! [s]
       type(failure), intent(inout) :: problem
 
-      if (.not. has_size(self%unit, self%bytes)) call problem%raise(exit_files, "cannot write '"//self%path//"': "//no_space)
+      if (.not. has_size(self%unit, self%path, self%bytes)) call problem%raise(exit_files, &
+         "cannot write '"//self%path//"': "//no_space)
       self%last_flush = now
    end subroutine flush_now
 

@@ -10,8 +10,9 @@
 program snapshot_to_text
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_files, exit_input, failure
+   use file_system, only: has_size, no_space
    use hdf5_reader, only: hdf5_reader_t, name_length, numbers
-   use kinds, only: dp
+   use kinds, only: dp, i8
    implicit none
 
    type :: column_t
@@ -93,6 +94,8 @@ contains
       type(column_t), intent(in) :: columns(:)
       type(failure), intent(inout) :: problem   !! exit_files: cannot be written
       character(256) :: message
+      character((2 + name_length)*size(columns) + 100) :: line
+      integer(i8) :: bytes
       integer :: i, k, status, unit
 
       unit = output_unit
@@ -103,20 +106,46 @@ contains
          call problem%raise(exit_files, "cannot write '"//argument(2)//"': "//trim(message))
          return
       end if
-      write (unit, '(a)') '# title: '//file%words('title')
+      bytes = 0
+      call put(unit, '# title: '//file%title(), bytes, status, message)
       do i = 1, size(numbers)
-         write (unit, '(3a, es23.15e3)') '# ', trim(numbers(i)), ':', file%number(trim(numbers(i)))
+         write (line, '(3a, es23.15e3)') '# ', trim(numbers(i)), ':', file%number(trim(numbers(i)))
+         call put(unit, trim(line), bytes, status, message)
       end do
       do i = 1, size(columns)
-         write (unit, '(3a, 4es16.7e3)') '# range of ', trim(columns(i)%name), ':', range_of(columns(i)%values)
+         write (line, '(3a, 4es16.7e3)') '# range of ', trim(columns(i)%name), ':', range_of(columns(i)%values)
+         call put(unit, trim(line), bytes, status, message)
       end do
-      write (unit, '(*(1x, a))') (trim(columns(i)%name), i=1, size(columns))
+      line = ''
+      do i = 1, size(columns)
+         line = trim(line)//' '//columns(i)%name
+      end do
+      call put(unit, trim(line), bytes, status, message)
       do k = 1, size(columns(1)%values)
-         write (unit, '(*(es16.7e3))', iostat=status, iomsg=message) (columns(i)%values(k), i=1, size(columns))
-         if (status /= 0) exit
+         write (line, '(*(es16.7e3))') (columns(i)%values(k), i=1, size(columns))
+         call put(unit, trim(line), bytes, status, message)
       end do
+      ! A device has no size.
+      if (status == 0 .and. unit /= output_unit .and. index(argument(2), '/dev/') /= 1) then
+         if (.not. has_size(unit, argument(2), bytes)) then
+            status = 1
+            message = no_space
+         end if
+      end if
       if (status /= 0) call problem%raise(exit_files, 'cannot write the table: '//trim(message))
    end subroutine write_table
+
+   ! A line, and its bytes.
+   subroutine put(unit, text, bytes, status, message)
+      integer, intent(in) :: unit
+      character(*), intent(in) :: text
+      integer(i8), intent(inout) :: bytes      !! of all lines
+      integer, intent(inout) :: status         !! of the first line that failed
+      character(*), intent(inout) :: message
+
+      if (status == 0) write (unit, '(a)', iostat=status, iomsg=message) text
+      bytes = bytes + len(text) + 1
+   end subroutine put
 
    !> Smallest, largest, mean and standard deviation; zeros for no values.
    pure function range_of(values) result(range)

@@ -1,12 +1,15 @@
-!> Reading what snapshots hold: arrays as columns of reals, attributes of the root group.
+!> Reading what snapshots hold: arrays as columns of reals, numbers of the root group, the title.
+!!
+!! Texts of variable length, as the root group has them, are not touched: they are in a heap without a checksum, and version 1.10
+!! of the HDF5 library crashes on damaged ones. The title is there once more, of fixed length; earlier versions had it only there.
 module hdf5_reader
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr, c_size_t
    use errors, only: exit_files, failure
-   use hdf5, only: h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, &
-      h5dopen_f, h5dread_f, h5eset_auto_f, h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, h5gn_members_f, &
-      h5open_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_npoints_f, &
-      h5t_cset_utf8_f, h5t_float_f, h5t_integer_f, h5t_native_double, h5t_string, h5t_string_f, h5tclose_f, h5tcopy_f, &
-      h5tget_class_f, h5tset_cset_f, hid_t, hsize_t
+   use hdf5, only: h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_by_name_f, h5aopen_f, h5aread_f, h5dclose_f, &
+      h5dget_space_f, h5dopen_f, h5dread_f, h5eset_auto_f, h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, &
+      h5gn_members_f, h5open_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, &
+      h5sget_simple_extent_npoints_f, h5t_float_f, h5t_integer_f, h5t_native_double, h5t_string_f, h5tclose_f, h5tget_class_f, &
+      h5tget_size_f, h5tis_variable_str_f, hid_t, hsize_t
    use kinds, only: dp
    use text, only: to_text
    implicit none
@@ -15,9 +18,10 @@ module hdf5_reader
    public :: hdf5_reader_t, name_length, numbers
 
    integer, parameter :: name_length = 64   !! of an array
-   character(*), parameter :: fields = '/VTKHDF/PointData'
+   integer(c_size_t), parameter :: most_bytes = 65536   !! of a title
+   character(*), parameter :: grid = '/VTKHDF', fields = grid//'/PointData'
    character(*), parameter :: numbers(*) = [character(16) :: 'time', 'reference_length', 'spacing', 'sound_speed', 'density', &
-      'gravity']   !! attributes that are asked for, besides the title
+      'gravity']   !! attributes that are asked for
 
    character(*), parameter :: damaged = 'the file is damaged, or was not written by dynsph'
    integer, parameter :: most_particles = 2*10**8   !! that dynsph writes
@@ -34,15 +38,8 @@ module hdf5_reader
       procedure :: read_points
       procedure :: read_field
       procedure :: number
-      procedure :: words
+      procedure :: title
    end type hdf5_reader_t
-
-   interface
-      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-      end function c_strlen
-   end interface
 
 contains
 
@@ -71,49 +68,36 @@ contains
    subroutine check_attributes(self, problem)
       class(hdf5_reader_t), intent(in) :: self
       type(failure), intent(inout) :: problem
-      logical :: fine
       integer :: i
 
-      fine = holds_one(self, 'title', [h5t_string_f])
-      if (.not. fine) call problem%raise(exit_files, "attribute 'title' of '"//self%path//"' is not one text; "//damaged)
       do i = 1, size(numbers)
-         fine = holds_one(self, trim(numbers(i)), [h5t_float_f, h5t_integer_f])
-         if (.not. fine .and. .not. problem%raised()) call problem%raise(exit_files, "attribute '"//trim(numbers(i))//"' of '" &
-                                                                         //self%path//"' is not one number; "//damaged)
+         if (problem%raised()) return
+         if (.not. is_number_or_missing(self, trim(numbers(i)))) call problem%raise(exit_files, "attribute '"//trim(numbers(i)) &
+            //"' of '"//self%path//"' is not one number; "//damaged)
       end do
    end subroutine check_attributes
 
-   ! Whether an attribute of the root group is missing, or is one value of one of some classes.
-   logical function holds_one(self, name, classes)
+   logical function is_number_or_missing(self, name) result(fine)
       class(hdf5_reader_t), intent(in) :: self
-      character(*), intent(in) :: name
-      integer, intent(in) :: classes(:)
-      integer(hid_t) :: attribute, space, kind
-      integer(hsize_t) :: points
+      character(*), intent(in) :: name   !! of an attribute of the root group
+      integer(hid_t) :: attribute, kind
       integer :: class, status
       logical :: there
 
-      holds_one = .true.
       call h5aexists_f(self%file, name, there, status)
-      if (status >= 0 .and. .not. there) return
-      holds_one = .false.
+      fine = status >= 0 .and. .not. there
+      if (fine) return
       call h5aopen_f(self%file, name, attribute, status)
       if (status < 0) return
-      points = 0
       class = -1
-      call h5aget_space_f(attribute, space, status)
-      if (status >= 0) then
-         call h5sget_simple_extent_npoints_f(space, points, status)
-         call h5sclose_f(space, status)
-      end if
       call h5aget_type_f(attribute, kind, status)
       if (status >= 0) then
          call h5tget_class_f(kind, class, status)
          call h5tclose_f(kind, status)
       end if
+      fine = any(class == [h5t_float_f, h5t_integer_f]) .and. is_scalar(attribute)
       call h5aclose_f(attribute, status)
-      holds_one = points == 1 .and. any(class == classes)
-   end function holds_one
+   end function is_number_or_missing
 
    subroutine close_snapshot(self)
       class(hdf5_reader_t), intent(inout) :: self
@@ -216,32 +200,65 @@ contains
       number = value
    end function number
 
-   !> A text attribute of the root group; '' when it is missing.
-   function words(self, name) result(text)
+   !> The title; '' where it is not kept with a fixed length.
+   function title(self)
       class(hdf5_reader_t), intent(in) :: self
-      character(*), intent(in) :: name
-      character(:), allocatable :: text
-      character(kind=c_char), pointer :: bytes(:)
-      type(c_ptr), target :: address(1)
+      character(:), allocatable :: title
+      character(kind=c_char), allocatable, target :: bytes(:)
       type(c_ptr) :: start
-      integer(hid_t) :: attribute, string
+      integer(hid_t) :: attribute, kind
+      integer(c_size_t) :: length
       integer :: i, status
 
-      text = ''
-      call h5aopen_f(self%file, name, attribute, status)
+      title = ''
+      call h5aopen_by_name_f(self%file, grid, 'title', attribute, status)
       if (status < 0) return
-      call h5tcopy_f(h5t_string, string, status)
-      call h5tset_cset_f(string, h5t_cset_utf8_f, status)
-      start = c_loc(address)
-      call h5aread_f(attribute, string, start, status)
-      if (status >= 0 .and. c_associated(address(1))) then
-         call c_f_pointer(address(1), bytes, [c_strlen(address(1))])
-         do i = 1, size(bytes)
-            text = text//bytes(i)
-         end do
+      call h5aget_type_f(attribute, kind, status)
+      if (status >= 0) then
+         length = fixed_length(kind)
+         if (length > 0 .and. is_scalar(attribute)) then
+            allocate (bytes(length))
+            start = c_loc(bytes)
+            call h5aread_f(attribute, kind, start, status)
+            do i = 1, size(bytes)
+               if (status < 0 .or. bytes(i) == c_null_char) exit
+               title = title//bytes(i)
+            end do
+         end if
+         call h5tclose_f(kind, status)
       end if
-      call h5tclose_f(string, status)
       call h5aclose_f(attribute, status)
-   end function words
+   end function title
+
+   ! Bytes of a text type of fixed length; 0 for any other type.
+   integer(c_size_t) function fixed_length(kind) result(length)
+      integer(hid_t), intent(in) :: kind
+      integer :: class, status
+      logical :: varies
+
+      length = 0
+      call h5tget_class_f(kind, class, status)
+      if (status < 0 .or. class /= h5t_string_f) return
+      call h5tis_variable_str_f(kind, varies, status)
+      if (status < 0 .or. varies) return
+      call h5tget_size_f(kind, length, status)
+      if (status < 0 .or. length > most_bytes) length = 0
+   end function fixed_length
+
+   ! Whether an attribute is one value.
+   logical function is_scalar(attribute)
+      integer(hid_t), intent(in) :: attribute
+      integer(hid_t) :: space
+      integer(hsize_t) :: points
+      integer :: status
+
+      points = 0
+      call h5aget_space_f(attribute, space, status)
+      if (status >= 0) then
+         call h5sget_simple_extent_npoints_f(space, points, status)
+         call h5sclose_f(space, status)
+      end if
+      is_scalar = points == 1
+   end function is_scalar
 
 end module hdf5_reader

@@ -17,7 +17,7 @@ module interpolation
    implicit none
    private
 
-   public :: fluid_t, grid_t, sort_fluid, filling, grid_values
+   public :: fluid_t, grid_t, sort_fluid, covering_grid, filling, grid_values
 
    real(dp), parameter, public :: scheme_h = 2.0_dp   !! h/dx of the scheme
    real(dp), parameter :: singular = 1.0e-3_dp   !! of a determinant over its trace squared: all in a line, or nearly
@@ -71,6 +71,15 @@ contains
          call list_neighbours(near, fluid%p, model%kernel, 0.0_dp, within_step=.false.)
       end associate
    end subroutine sort_fluid
+
+   !> Points at spacing dx over all particles.
+   pure type(grid_t) function covering_grid(snapshot) result(grid)
+      type(particle_snapshot_t), intent(in) :: snapshot
+
+      grid%spacing = snapshot%spacing
+      grid%lower = [minval(snapshot%x), minval(snapshot%y)]
+      grid%n = 1 + nint(min(([maxval(snapshot%x), maxval(snapshot%y)] - grid%lower)/grid%spacing, 1.0e8_dp))
+   end function covering_grid
 
    !> sum_j W V_j at every point of a grid, with the scheme's kernel: 1 inside the fluid, 0 outside, 1/2 at its edges.
    subroutine filling(fluid, grid, share)

@@ -43,7 +43,7 @@ contains
          if (size(velocity, 1) /= 3) call problem%raise(exit_files, "the velocity of '"//path//"' is no vector")
       end if
       if (.not. problem%raised()) then
-         snapshot%title = file%words('title')
+         snapshot%title = file%title()
          snapshot%time = file%number('time')
          snapshot%spacing = file%number('spacing')
          snapshot%gravity = file%number('gravity')

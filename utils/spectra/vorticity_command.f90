@@ -5,7 +5,7 @@ module vorticity_command
    use errors, only: exit_files, exit_input, failure
    use file_system, only: path_exists, write_whole_file
    use gradient_fields, only: gradient_fields_t, measure_gradients
-   use interpolation, only: filling, fluid_t, grid_t, grid_values, scheme_h, sort_fluid
+   use interpolation, only: covering_grid, filling, fluid_t, grid_t, grid_values, scheme_h, sort_fluid
    use kernel_transform, only: transform_of_kernel
    use kinds, only: dp
    use options, only: options_t
@@ -191,15 +191,6 @@ contains
 
       if (path_exists(path)) call problem%raise(exit_input, "'"//path//"' is there already; --overwrite replaces it")
    end subroutine must_not_be_there
-
-   !> Points at spacing dx over all particles.
-   pure type(grid_t) function covering_grid(snapshot) result(grid)
-      type(particle_snapshot_t), intent(in) :: snapshot
-
-      grid%spacing = snapshot%spacing
-      grid%lower = [minval(snapshot%x), minval(snapshot%y)]
-      grid%n = 1 + nint(min(([maxval(snapshot%x), maxval(snapshot%y)] - grid%lower)/grid%spacing, 1.0e8_dp))
-   end function covering_grid
 
    !> The grid points asked for, or the largest rectangle of points inside the fluid.
    !! Raises exit_input if it is too small or reaches out of the fluid.
