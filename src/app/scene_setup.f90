@@ -2,6 +2,7 @@
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
+   use equation_of_state, only: excess_density
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
    use kernel, only: k_2d, new_kernel
@@ -149,7 +150,7 @@ contains
                p%next%y(slot) = position(2)
                p%next%u(slot) = velocity(1)
                p%next%v(slot) = velocity(2)
-               p%next%s(slot) = pressure/model%c0**2
+               p%next%s(slot) = excess_density(model%c0, pressure)
                p%next%volume(slot) = sites%area(i)
                p%m(slot) = (model%rho0 + p%next%s(slot))*sites%area(i)
             end do

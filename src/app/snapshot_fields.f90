@@ -1,6 +1,7 @@
 !> The arrays of a snapshot, by their names in &output fields.
 module snapshot_fields
    use eddy, only: eddy_coefficients
+   use equation_of_state, only: pressure_of
    use gradient_fields, only: gradient_fields_t, measure_gradients
    use kinds, only: dp
    use model, only: model_t
@@ -67,7 +68,7 @@ contains
       case ('pressure')
          field%unit = 'mass/(length time^2)'
          field%long_name = 'pressure, c0^2 (rho - rho0)'
-         field%values = model%c0**2*p%base%s(slot)
+         field%values = pressure_of(model%c0, p%base%s(slot))
       case ('density')
          field%unit = 'mass/length^3'
          field%long_name = 'density'

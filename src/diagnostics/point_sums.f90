@@ -1,5 +1,6 @@
 !> Kernel sums over particles and images at a point.
 module point_sums
+   use equation_of_state, only: pressure_of
    use kernel, only: kernel_value
    use kinds, only: dp
    use model, only: model_t
@@ -40,7 +41,7 @@ contains
             pressure = pressure + share*p%base%s(j)
          end do
       end do
-      pressure = model%c0**2*pressure
+      pressure = pressure_of(model%c0, pressure)   ! of the smoothed density
    end subroutine sum_at
 
 end module point_sums

@@ -21,7 +21,7 @@ contains
       type(model_t), intent(in) :: model
       real(dp), intent(in) :: alpha                    !! [1] 1 if it is in the sums
       real(dp), intent(in) :: viscous_x(block_slots)   !! [m3/s] sum_j pi_ij x_ji t**3 V_j
-      real(dp), intent(in) :: viscous_y(block_slots)
+      real(dp), intent(in) :: viscous_y(block_slots)   !! [m3/s]
       type(particles_t), intent(inout) :: p            !! visc_x, visc_y of the block are set
       integer, intent(in) :: i0, n                     !! slot before the block's first; slots
       real(dp) :: factor

@@ -29,7 +29,7 @@ contains
       real(dp), intent(in) :: factor             !! [1/m4] of the kernel's gradient
       type(first_sums_t), intent(in) :: sums     !! of the dynamic pass
       integer, intent(in) :: k                   !! place in the block
-      real(dp), intent(in) :: l_xx, l_xy, l_yy
+      real(dp), intent(in) :: l_xx, l_xy, l_yy   !! [1]
 
       gradient%u_x = factor*(sums%u_x(k)*l_xx + sums%u_y(k)*l_xy)
       gradient%u_y = factor*(sums%u_x(k)*l_xy + sums%u_y(k)*l_yy)
@@ -48,7 +48,7 @@ contains
    elemental subroutine eddy_coefficients(model, strain, alpha, delta)
       type(model_t), intent(in) :: model
       real(dp), intent(in) :: strain            !! [1/s] ||D||
-      real(dp), intent(out) :: alpha, delta
+      real(dp), intent(out) :: alpha, delta     !! [1]
       real(dp) :: clipped
 
       clipped = min(strain, model%largest_strain)

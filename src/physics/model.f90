@@ -76,7 +76,7 @@ contains
    !> dt = CFL h/(c0 + h max|pi_ij|), eq. 8.
    pure real(dp) function advective_limit(self, largest_pi)
       class(model_t), intent(in) :: self
-      real(dp), intent(in) :: largest_pi
+      real(dp), intent(in) :: largest_pi   !! [1/s] max |pi_ij|
 
       advective_limit = self%cfl*self%kernel%h/(self%c0 + self%kernel%h*largest_pi)
    end function advective_limit
@@ -112,10 +112,10 @@ contains
       has_force = any(abs(self%acceleration) > 0)
    end function has_force
 
-   !> Gravity, uniform and central force at a place [length/time^2].
+   !> Gravity, uniform and central force at a place [m/s2].
    pure function force_at(self, place) result(force)
       class(model_t), intent(in) :: self
-      real(dp), intent(in) :: place(2)
+      real(dp), intent(in) :: place(2)   !! [m]
       real(dp) :: force(2)
 
       force = self%acceleration - [0.0_dp, self%gravity]

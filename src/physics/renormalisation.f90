@@ -48,7 +48,7 @@ contains
    elemental subroutine renormalise(factor, matrix_xx, matrix_xy, matrix_yy, l_xx, l_xy, l_yy, regular)
       real(dp), intent(in) :: factor                            !! [1/m4] of the kernel's gradient
       real(dp), intent(in) :: matrix_xx, matrix_xy, matrix_yy   !! [m4] L**-1 without that factor
-      real(dp), intent(out) :: l_xx, l_xy, l_yy
+      real(dp), intent(out) :: l_xx, l_xy, l_yy                 !! [1]
       real(dp), intent(out) :: regular                          !! [1] 0 where it is singular, else 1
       real(dp) :: xx, xy, yy, inverse
 

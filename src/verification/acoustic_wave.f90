@@ -6,6 +6,7 @@
 !! Speed and damping on a lattice come from module `square_lattice`.
 module acoustic_wave
    use columns, only: columns_t
+   use equation_of_state, only: pressure_of
    use fitting, only: line_fit, unwrapped
    use kinds, only: dp
    use model, only: model_t
@@ -150,7 +151,7 @@ contains
       class(acoustic_wave_solution_t), intent(in) :: self
       real(dp), intent(in) :: position(2)
 
-      p = self%c0**2*self%rho0*self%sound%density(position(1) - self%origin(1), self%time)
+      p = pressure_of(self%c0, self%rho0*self%sound%density(position(1) - self%origin(1), self%time))
    end function pressure
 
    ! Fourier coefficient of the density.

@@ -5,6 +5,7 @@
 !! (`speed_scale`, `pressure_scale`), which does not pass through zero as an oscillation does.
 module solution_errors
    use columns, only: columns_t
+   use equation_of_state, only: pressure_of
    use exact_sum, only: exact_totals
    use kinds, only: dp
    use model, only: model_t
@@ -133,7 +134,7 @@ contains
       associate (w => p%base%volume(i))
          if (solution%lasts) then
             error(1) = norm2(u - solution%velocity(r))
-            error(2) = abs(model%c0**2*p%base%s(i) - solution%pressure(r))
+            error(2) = abs(pressure_of(model%c0, p%base%s(i)) - solution%pressure(r))
             on_lattice = 0
             if (solution%by_lattice) on_lattice = norm2(u - solution%lattice_velocity(r))
             sums%norms = sums%norms + w*[1.0_dp, error(1), error(1)**2, error(2), error(2)**2, on_lattice**2]

@@ -10,6 +10,7 @@
 !! the free end meets the shock at t = L/(D + U), where the solution ends.
 module water_hammer
    use columns, only: columns_t
+   use equation_of_state, only: pressure_of
    use fitting, only: line_fit
    use kinds, only: dp
    use model, only: model_t
@@ -181,7 +182,7 @@ contains
       terms = 0
       terms(1) = w*(1 - dot_product(u, self%start)/self%speed_scale**2)
       if (abs(abs(r(self%axis)) - self%shock*self%time/2) < self%shock*self%time/4) then
-         p = self%c0**2*s
+         p = pressure_of(self%c0, s)
          terms(2:4) = w*[1.0_dp, p, (p - self%pressure_scale)**2]
       end if
    end function terms
