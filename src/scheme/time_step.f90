@@ -21,6 +21,7 @@ module time_step
    use particles, only: particles_t, state_t, swap_states
    use runge_kutta, only: block_t, moment_t, stage_state, update_block
    use search_margins, only: lists_hold, lists_reach, plan_margins, watch_margins, widen_margins
+   use strips, only: group_slots
    use timers, only: timers_t
    implicit none
    private
@@ -157,7 +158,7 @@ contains
          call sort_again(model, p, near, run, timers)
          if (run%scattered) return
       end do
-      call collect(model, run, last_time, blocks)
+      call collect(model, near, run, last_time, blocks)
       if (p%features%dissipation) call add_dissipated(p, run%dt)
       run%step = run%step + 1
       run%time = run%time + run%dt
@@ -414,24 +415,23 @@ contains
       !$omp end parallel do
    end subroutine whole_stage
 
-   ! Sums over all groups: exact, so that neither threads nor the order of groups matter.
-   subroutine collect(model, run, last_time, blocks)
+   ! Sums over each strip, and over these exact: neither threads nor the order of strips matter.
+   subroutine collect(model, near, run, last_time, blocks)
       type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
       real(dp), allocatable :: powers(:, :)
       real(dp) :: totals(5), moving_walls
-      integer :: b, g
+      integer :: k
 
       if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
          run%limited = run%limited + 1
-      allocate (powers(5, block_groups*size(blocks)))
-      !$omp parallel do default(none) shared(blocks, powers) private(g)
-      do b = 1, size(blocks)
-         do g = 1, block_groups
-            powers(:, (b - 1)*block_groups + g) = [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
-         end do
+      allocate (powers(5, near%strips%n))
+      !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, near%strips%n/256))
+      do k = 1, near%strips%n
+         powers(:, k) = strip_powers(near%strips%slot_start(k), near%strips%slot_start(k + 1) - 1, blocks)
       end do
       !$omp end parallel do
       totals = exact_totals(powers)
@@ -445,5 +445,19 @@ contains
       call take_extremes(model, maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), run)
       run%lost_slot = maxval(blocks%lost_slot)
    end subroutine collect
+
+   ! The works and the wall power of a strip, group by group.
+   pure function strip_powers(first, last, blocks) result(powers)
+      integer, intent(in) :: first, last   !! slots
+      type(block_t), intent(in) :: blocks(:)
+      real(dp) :: powers(5)
+      integer :: b, g
+
+      powers = 0
+      do g = (first - 1)/group_slots, last/group_slots - 1
+         b = g/block_groups
+         powers = powers + [blocks(b + 1)%work(g - b*block_groups + 1, :), blocks(b + 1)%wall_power(g - b*block_groups + 1)]
+      end do
+   end function strip_powers
 
 end module time_step
