@@ -52,13 +52,15 @@ program spectra_accuracy
    end if
    smoothing = given%real_number('--smoothing', problem)
    largest = given%real_number('--largest', problem)
-   if (given%given('--disorder')) then
+   if (.not. problem%raised() .and. .not. min(smoothing, largest) > 0) &
+      call problem%raise(exit_input, given%command//': --smoothing and --largest must be above 0')
+   if (given%given('--disorder') .and. size(given%files) == 0) then
       disorder = given%real_number('--disorder', problem)
       if (.not. problem%raised()) snapshot = disturbed_lattice(disorder)
-   else if (size(given%files) == 1) then
+   else if (size(given%files) == 1 .and. .not. given%given('--disorder')) then
       call read_snapshot(trim(given%files(1)), snapshot, problem)
    else
-      call problem%raise(exit_input, given%command//': give one snapshot or --disorder; --help lists the options')
+      call problem%raise(exit_input, given%command//': give one snapshot, or --disorder alone; --help lists the options')
    end if
    if (.not. problem%raised()) call measure(snapshot, smoothing, largest, waves, measured, exact, problem)
    if (.not. problem%raised()) call print_row(nint(waves%extent/snapshot%spacing), measured, exact, snapshot%spacing, smoothing)

@@ -85,27 +85,22 @@ module file_system
          type(glob_result), intent(inout) :: found
       end subroutine c_globfree
 
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
+      integer(c_int) function c_descriptor(unit) bind(c, name='_gfortran_fnum_i4')
+         import :: c_int
+         integer(c_int), intent(in) :: unit
+      end function c_descriptor
 
-      integer(c_int) function c_fseek(file, offset, whence) bind(c, name='fseek')
-         import :: c_int, c_long, c_ptr
-         type(c_ptr), value :: file
+      integer(c_long) function c_lseek(descriptor, offset, whence) bind(c, name='lseek')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor
          integer(c_long), value :: offset
          integer(c_int), value :: whence
-      end function c_fseek
+      end function c_lseek
 
-      integer(c_long) function c_ftell(file) bind(c, name='ftell')
-         import :: c_long, c_ptr
-         type(c_ptr), value :: file
-      end function c_ftell
-
-      integer(c_int) function c_fclose(file) bind(c, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: file
-      end function c_fclose
+      integer(c_int) function c_fdatasync(descriptor) bind(c, name='fdatasync')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_fdatasync
 
       type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
          import :: c_ptr
@@ -244,7 +239,7 @@ contains
       if (status == 0) then
          write (unit, iostat=status, iomsg=message) text
          if (status == 0) then
-            if (.not. has_size(unit, partial_path(path), len(text, i8))) then
+            if (.not. has_size(unit, len(text, i8))) then
                status = 1
                message = no_space
             end if
@@ -288,30 +283,24 @@ contains
    end subroutine read_whole_file
 
    !> True when the system has taken all bytes written to a unit. gfortran's FLUSH and CLOSE keep a full disk to themselves, and
-   !! INQUIRE counts what the disk did not take.
-   logical function has_size(unit, path, bytes)
+   !! INQUIRE counts what the disk did not take; the place that the open file has reached is the system's own.
+   logical function has_size(unit, bytes)
       integer, intent(in) :: unit
-      character(*), intent(in) :: path
       integer(i8), intent(in) :: bytes   !! written so far
-      integer :: status
+      integer(c_int), parameter :: from_here = 1   ! SEEK_CUR
+      integer(c_int) :: descriptor, status
+      integer(i8) :: taken
 
       flush (unit, iostat=status)
-      has_size = status == 0 .and. size_of_file(path) >= bytes
+      has_size = status == 0
+      if (.not. has_size) return
+      descriptor = c_descriptor(int(unit, c_int))
+      taken = c_lseek(descriptor, 0_c_long, from_here)
+      if (taken >= bytes) return
+      ! Pipes and devices have no places, and nothing that could be brought to a disk.
+      status = c_fdatasync(descriptor)
+      has_size = status /= 0
    end function has_size
-
-   ! As the system has it; -1 if it cannot be read.
-   integer(i8) function size_of_file(path) result(bytes)
-      character(*), intent(in) :: path
-      integer(c_int), parameter :: from_end = 2   ! SEEK_END
-      integer(c_int) :: ignored
-      type(c_ptr) :: file
-
-      bytes = -1
-      file = c_fopen(c_text(path), 'r'//c_null_char)
-      if (.not. c_associated(file)) return
-      if (c_fseek(file, 0_c_long, from_end) == 0) bytes = c_ftell(file)
-      ignored = c_fclose(file)
-   end function size_of_file
 
    !> The system's words for the call that returned this status; '' for success.
    function reason_of(status) result(reason)

@@ -4,8 +4,9 @@
 !! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
 !! the uniform force gave.
 module budget
-   use energy, only: energies_t, measure_energies
    use box, only: bottom_wall, is_wall, left_wall, right_wall
+   use energy, only: energies_t, measure_energies
+   use exact_sum, only: exact_totals
    use kinds, only: dp
    use model, only: model_t, terms_t
    use particles, only: particles_t
@@ -44,10 +45,12 @@ module budget
 contains
 
    !> Sum of all masses.
-   pure real(dp) function fluid_mass(p) result(mass)
+   real(dp) function fluid_mass(p) result(mass)
       type(particles_t), intent(in) :: p
+      real(dp) :: total(1)
 
-      mass = sum(p%m(1:p%n_own))
+      total = exact_totals(reshape(p%m(1:p%n_own), [1, p%n_own]))
+      mass = total(1)
    end function fluid_mass
 
    !> Takes the initial energies and the rest state's.

@@ -128,7 +128,7 @@ contains
       real(dp), intent(in) :: now   !! [s]
       type(failure), intent(inout) :: problem
 
-      if (.not. has_size(self%unit, self%path, self%bytes)) call problem%raise(exit_files, &
+      if (.not. has_size(self%unit, self%bytes)) call problem%raise(exit_files, &
          "cannot write '"//self%path//"': "//no_space)
       self%last_flush = now
    end subroutine flush_now

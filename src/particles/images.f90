@@ -79,6 +79,7 @@ contains
       end do
       !$omp end parallel do
       call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), p%n_own + 1, .false.)
+      if (self%strips%n < 0) return   ! too long, as the fluid itself can be
       !$omp parallel do default(none) shared(self, n) private(i)
       do k = 1, n
          i = self%strips%point_of(k)

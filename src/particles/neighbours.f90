@@ -113,6 +113,8 @@ contains
          reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       end associate
       call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
+      scattered = self%images%strips%n < 0
+      if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles

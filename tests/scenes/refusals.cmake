@@ -39,6 +39,8 @@ refused(probe_off_its_wall 1 1 "" "lies 0.03 m from the nearest wall, more than 
 refused(probe_named_time 1 1 "" "name of another column" --set "probe(1).name=time" ${dam_break})
 refused(fluid_far_apart 2 any "" "more than 4 million strips of width h long: move the bodies closer in x" --set domain.upper=1000002,1.5
    --set domain.right=open --set "body(1).lower=1e6,0.6" --set "body(1).upper=1000001,1" ${scenes}/still_layers.nml)
+refused(images_far_apart 2 any "" "more than 4 million strips of width h long" --set domain.upper=399999.9,1.5
+   --set "body(1).lower=399999.8,0" --set "body(1).upper=399999.9,0.1" --set output.energy=never ${scenes}/still_layers.nml)
 refused(existing_result 1 1 "old/run.log" "'old' already holds a result .run.log.*--overwrite" --output old ${dam_break})
 refused(unknown_option 1 1 "" "no option --chek. did you mean '--check'" --chek ${dam_break})
 refused(no_scene 1 1 "" "which scene")

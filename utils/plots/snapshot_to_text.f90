@@ -125,9 +125,8 @@ contains
          write (line, '(*(es16.7e3))') (columns(i)%values(k), i=1, size(columns))
          call put(unit, trim(line), bytes, status, message)
       end do
-      ! A device has no size.
-      if (status == 0 .and. unit /= output_unit .and. index(argument(2), '/dev/') /= 1) then
-         if (.not. has_size(unit, argument(2), bytes)) then
+      if (status == 0) then
+         if (.not. has_size(unit, bytes)) then
             status = 1
             message = no_space
          end if

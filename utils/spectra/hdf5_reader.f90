@@ -95,7 +95,8 @@ contains
          call h5tget_class_f(kind, class, status)
          call h5tclose_f(kind, status)
       end if
-      fine = any(class == [h5t_float_f, h5t_integer_f]) .and. is_scalar(attribute)
+      fine = is_scalar(attribute)
+      fine = fine .and. any(class == [h5t_float_f, h5t_integer_f])
       call h5aclose_f(attribute, status)
    end function is_number_or_missing
 
@@ -216,7 +217,8 @@ contains
       call h5aget_type_f(attribute, kind, status)
       if (status >= 0) then
          length = fixed_length(kind)
-         if (length > 0 .and. is_scalar(attribute)) then
+         if (.not. is_scalar(attribute)) length = 0
+         if (length > 0) then
             allocate (bytes(length))
             start = c_loc(bytes)
             call h5aread_f(attribute, kind, start, status)
