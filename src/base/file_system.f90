@@ -97,6 +97,13 @@ module file_system
          integer(c_int), value :: whence
       end function c_lseek
 
+      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function c_write
+
       integer(c_int) function c_fdatasync(descriptor) bind(c, name='fdatasync')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -297,9 +304,10 @@ contains
       descriptor = c_descriptor(int(unit, c_int))
       taken = c_lseek(descriptor, 0_c_long, from_here)
       if (taken >= bytes) return
-      ! Pipes and devices have no places, and nothing that could be brought to a disk.
+      ! Pipes and devices have no places, and nothing that could be brought to a disk; /dev/full takes not even nothing.
       status = c_fdatasync(descriptor)
       has_size = status /= 0
+      if (has_size) has_size = c_write(descriptor, c_null_char, 0_c_size_t) == 0
    end function has_size
 
    !> The system's words for the call that returned this status; '' for success.
