@@ -31,14 +31,17 @@ module strips
       real(dp) :: slack = 0   !! length that accelerations may lead one of them
    end type extent_t
 
-   !> The strips of a set of points and where their slots begin.
+   !> The strips of a set of points and where their slots begin. Where there is no point there is no strip.
    type :: strips_t
       integer :: n = 0                              !! strips
+      integer :: n_places = 0                       !! strips that would stand side by side from the first to the last
       real(dp) :: origin = 0                        !! x of some strip's left edge, set by the caller
       real(dp) :: left = 0                          !! x of the first strip's left edge
       real(dp) :: width = 1                         !! of a strip
       real(dp) :: bin_height = 1                    !! in y
       integer :: n_slots = 0                        !! slots taken, padding included
+      integer, allocatable :: place(:)              !! (n) of a strip, counted from the left
+      integer, allocatable :: before(:)             !! (n_places+1) strips to the left of a place
       integer, allocatable :: slot_start(:)         !! (n+1) first slot of a strip
       real(dp), allocatable :: lowest(:)            !! (n) y of a strip's first bin
       integer, allocatable :: bins(:)               !! (n) bins of a strip
@@ -95,21 +98,50 @@ contains
       end do
       !$omp end parallel do
       self%n = 0
+      self%n_places = 0
       if (last >= first) then
          self%n = -1
          offset = (first - self%origin)/self%width
          if (.not. (last - first < self%width*max_strips .and. abs(offset) < max_offset)) return
          self%left = self%origin + self%width*floor(offset, i8)
-         self%n = int((last - self%left)/self%width) + 1
+         self%n_places = int((last - self%left)/self%width) + 1
       end if
       call resize(self%strip_of, n_points)
+      call resize(self%before, self%n_places + 1)
+      self%before(:self%n_places + 1) = 0
       !$omp parallel do default(none) shared(self, n_points, number, x)
       do i = 1, n_points
          self%strip_of(i) = 0
-         if (number(i) /= 0) self%strip_of(i) = min(self%n, int((x(i) - self%left)/self%width) + 1)
+         if (number(i) == 0) cycle
+         self%strip_of(i) = min(self%n_places, int((x(i) - self%left)/self%width) + 1)
+         !$omp atomic write
+         self%before(self%strip_of(i)) = 1
+      end do
+      !$omp end parallel do
+      call number_strips(self)
+      !$omp parallel do default(none) shared(self, n_points)
+      do i = 1, n_points
+         if (self%strip_of(i) > 0) self%strip_of(i) = self%before(self%strip_of(i)) + 1
       end do
       !$omp end parallel do
    end subroutine assign_strips
+
+   ! Strips where there are points, which `before` has marked by 1.
+   subroutine number_strips(self)
+      type(strips_t), intent(inout) :: self
+      integer :: here, p
+
+      self%n = sum(self%before(:self%n_places))
+      call resize(self%place, self%n)
+      self%n = 0
+      do p = 1, self%n_places + 1
+         here = self%before(p)
+         self%before(p) = self%n
+         if (here == 0) cycle
+         self%n = self%n + 1
+         self%place(self%n) = p
+      end do
+   end subroutine number_strips
 
    ! Points in the order of their strips, by a counting sort with a histogram for each chunk of points.
    subroutine list_by_strip(self, n_points, strip_start)
@@ -303,13 +335,12 @@ contains
       if (self%n == 0) return
       closing = travel*relative_speed(box, self%overall)
       widest = support + box%slack + self%overall%slack + closing(1)
-      k1 = int(max(0.0_dp, min(real(self%n, dp), (box%lower(1) - widest - self%left)/self%width))) + 1
-      k2 = int(max(-1.0_dp, min(self%n - 1.0_dp, (box%upper(1) + widest - self%left)/self%width))) + 1
-      do k = k1, k2
-         if (self%bins(k) == 0) cycle
+      k1 = int(max(0.0_dp, min(real(self%n_places, dp), (box%lower(1) - widest - self%left)/self%width))) + 1
+      k2 = int(max(-1.0_dp, min(self%n_places - 1.0_dp, (box%upper(1) + widest - self%left)/self%width))) + 1
+      do k = self%before(k1) + 1, self%before(k2 + 1)
          closing = travel*relative_speed(box, self%extent(k))
          reach = support + box%slack + self%extent(k)%slack
-         strip_left = self%left + (k - 1)*self%width
+         strip_left = self%left + (self%place(k) - 1)*self%width
          gap = max(0.0_dp, strip_left - box%upper(1) - closing(1), box%lower(1) - (strip_left + self%width) - closing(1))
          if (gap >= reach) cycle
          half_height = sqrt((reach - gap)*(reach + gap)) + closing(2)
@@ -347,8 +378,9 @@ contains
 
       bytes = 0
       if (.not. allocated(self%point_of)) return   ! nothing was sorted yet
-      associate (integers => size(self%slot_start, kind=i8) + size(self%bins) + size(self%bin_offset) + size(self%bin_start) &
-                             + size(self%strip_of) + size(self%by_strip) + size(self%point_of))
+      associate (integers => size(self%place, kind=i8) + size(self%before) + size(self%slot_start) + size(self%bins) &
+                             + size(self%bin_offset) + size(self%bin_start) + size(self%strip_of) + size(self%by_strip) &
+                             + size(self%point_of))
          bytes = (integers*storage_size(self%bins) + size(self%lowest, kind=i8)*storage_size(self%lowest) &
                   + size(self%extent, kind=i8)*storage_size(self%extent))/8
       end associate
