@@ -248,7 +248,6 @@ contains
          strips%extent(k) = extent_t()
          first = strips%slot_start(k)
          last = strips%slot_start(k + 1) - 1
-         if (last < first) cycle
          do while (strips%point_of(last - strips%slot_start(1) + 1) == 0)
             last = last - 1
          end do

@@ -223,10 +223,9 @@ contains
          end do
          n_here = strip_start(k + 1) - strip_start(k)
          self%lowest(k) = lowest
-         self%bins(k) = 0
          ! A strip of few far-apart points is not worth a bin every quarter spacing.
          max_bins = 64*n_here + 64
-         if (n_here > 0) self%bins(k) = int(min(real(max_bins, dp), (highest - lowest)/self%bin_height)) + 1
+         self%bins(k) = int(min(real(max_bins, dp), (highest - lowest)/self%bin_height)) + 1
       end do
       !$omp end parallel do
       slot = first_slot
