@@ -22,8 +22,9 @@ program ladder
    use scene_setup, only: needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use step_state, only: step_t
    use text, only: behind
-   use time_step, only: advance, refresh, step_t
+   use time_step, only: advance, refresh
    use timers, only: timers_t
    use waiting, only: sleep_while_waiting
    implicit none

@@ -17,7 +17,8 @@ program stability
    use program_arguments, only: take_arguments
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: body_settings, settings_t
-   use time_step, only: advance, refresh, step_t
+   use step_state, only: step_t
+   use time_step, only: advance, refresh
    use timers, only: timers_t
    use von_neumann, only: growth, lattice_waves, stable_cfl, wave_t
    use threads, only: limit_threads

@@ -11,13 +11,16 @@ module command_line
    character(option_length), parameter :: switches(*) = [character(option_length) :: '--check', '--overwrite', &
                                                          '--quiet', '--shortest', '--template', '--keys', '--help', &
                                                          '--version']
-   character(option_length), parameter :: with_value(*) = [character(option_length) :: '--set', '--output']
+   character(option_length), parameter :: with_value(*) = [character(option_length) :: '--set', '--output', '--resume', &
+                                                           '--fork']
    character(*), parameter :: see_help = 'dynsph --help lists the options'
 
    !> What the user asks for.
    type :: command_line_t
       character(:), allocatable :: scene          !! path of the scene file; '' if none is needed
       character(:), allocatable :: output         !! directory of the results; '' if not said
+      character(:), allocatable :: resume         !! directory of the run that goes on; '' for one that begins
+      character(:), allocatable :: fork           !! directory that it goes on in, changed; '' if it is the same
       character(:), allocatable :: overrides(:)   !! 'group.key=value', in their order
       logical :: check = .false.                  !! validate only
       logical :: overwrite = .false.              !! existing results may be replaced
@@ -49,6 +52,8 @@ contains
 
       parsed%scene = ''
       parsed%output = ''
+      parsed%resume = ''
+      parsed%fork = ''
       allocate (character(1) :: parsed%overrides(0))
       at = 0
       do while (at < size(arguments))
@@ -72,11 +77,34 @@ contains
             call parsed%switch_on(name, problem)
          end if
       end do
-      if (parsed%scene == '' .and. .not. (parsed%template .or. parsed%keys .or. parsed%help .or. parsed%version) &
-          .and. .not. problem%raised()) then
-         call problem%raise(exit_input, 'command line: which scene? Usage: dynsph [options] scene.nml; '//see_help)
-      end if
+      if (.not. problem%raised()) call check_what_is_run(parsed, problem)
    end subroutine parse_command_line
+
+   !> A scene that begins, or a run that goes on.
+   subroutine check_what_is_run(parsed, problem)
+      type(command_line_t), intent(in) :: parsed
+      type(failure), intent(inout) :: problem
+
+      if (parsed%template .or. parsed%keys .or. parsed%help .or. parsed%version) return
+      if (parsed%resume == '') then
+         if (parsed%fork /= '') then
+            call problem%raise(exit_input, 'command line: --fork needs --resume DIR, the run that is forked')
+         else if (parsed%scene == '') then
+            call problem%raise(exit_input, 'command line: which scene? Usage: dynsph [options] scene.nml; '//see_help)
+         end if
+      else if (parsed%scene /= '') then
+         call problem%raise(exit_input, 'command line: --resume goes on with the input in '//quoted(parsed%resume)//'; leave out ' &
+                            //quoted(parsed%scene)//', and change a value with --set')
+      else if (parsed%output /= '') then
+         call problem%raise(exit_input, 'command line: --resume writes where the run did; leave out --output, or write elsewhere ' &
+                            //'with --fork DIR')
+      else if (parsed%overwrite .and. parsed%fork == '') then
+         call problem%raise(exit_input, 'command line: --resume keeps the results; leave out --overwrite')
+      else if (parsed%check .or. parsed%shortest) then
+         call problem%raise(exit_input, 'command line: --check and --shortest take a scene; '//parsed%resume &
+                            //'/input_used.nml is that of the run')
+      end if
+   end subroutine check_what_is_run
 
    !> Parts '--output=DIR' into '--output' and 'DIR'.
    pure subroutine split_option(argument, name, value, has_value)
@@ -157,18 +185,35 @@ contains
 
       character(:), allocatable :: what
 
-      what = 'group.key=value'
-      if (name == '--output') what = 'the name of a directory'
+      what = 'the name of a directory'
+      if (name == '--set') what = 'group.key=value'
       if (.not. has_value .or. value == '') then
          call problem%raise(exit_input, 'command line: '//name//' needs '//what)
-      else if (name == '--set') then
-         call self%add_override(value)
-      else if (self%output /= '') then
-         call problem%raise(exit_input, 'command line: --output is given twice, '//quoted(self%output)//' and '//quoted(value))
-      else
-         self%output = value
+         return
       end if
+      select case (name)
+      case ('--set')
+         call self%add_override(value)
+      case ('--resume')
+         call take_directory(name, value, self%resume, problem)
+      case ('--fork')
+         call take_directory(name, value, self%fork, problem)
+      case default
+         call take_directory(name, value, self%output, problem)
+      end select
    end subroutine take_value
+
+   subroutine take_directory(name, value, directory, problem)
+      character(*), intent(in) :: name, value
+      character(:), allocatable, intent(inout) :: directory   !! '' so far
+      type(failure), intent(inout) :: problem
+
+      if (directory /= '') then
+         call problem%raise(exit_input, 'command line: '//name//' is given twice, '//quoted(directory)//' and '//quoted(value))
+      else
+         directory = value
+      end if
+   end subroutine take_directory
 
    !> Appends an override.
    subroutine add_override(self, phrase)
@@ -195,6 +240,7 @@ contains
 
       write (unit, '(a)') &
          'Usage: dynsph [options] scene.nml', &
+         '       dynsph --resume DIR [--set group.key=value] [--fork DIR2]', &
          '', &
          'Runs the free-surface flow that a namelist file describes, by the delta-SPH scheme.', &
          '', &
@@ -203,6 +249,8 @@ contains
          '                          body(2).velocity=1,0 means the second &body', &
          '  --output DIR            directory of the results', &
          '  --overwrite             results that are in DIR already may be replaced', &
+         '  --resume DIR            go on with the run in DIR from its latest checkpoint', &
+         '  --fork DIR2             with --resume: go on in DIR2, where more than the end and the output may be changed', &
          '  --quiet                 nothing on the screen but errors', &
          '  --shortest              print what of the scene differs from the defaults; run nothing', &
          '  --template              print a scene with all keys, defaults, units and ranges', &
@@ -211,7 +259,8 @@ contains
          '  --version               print version, compiler and flags', &
          '', &
          'The number of threads is OMP_NUM_THREADS.', &
-         'Exit codes: 0 done, 1 wrong command line or input, 2 the solution left its range, 3 a file or directory.', &
+         'A run stops, and can go on, at SIGTERM, SIGINT, SIGHUP, SIGXCPU, SIGUSR1, a file STOP in its directory, max_wall_time.', &
+         'Exit codes: 0 done, 1 wrong command line or input, 2 the solution left its range, 3 a file or directory, 4 stopped.', &
          '', &
          'Example: dynsph --set scene.resolution=40 --output results/coarse input/dam_break.nml'
    end subroutine write_help

@@ -12,8 +12,9 @@ module cost
    use scene_setup, only: count_particles, needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
    use step_check, only: check_step
+   use step_state, only: step_t
    use threads, only: limit_threads
-   use time_step, only: advance, refresh, step_t
+   use time_step, only: advance, refresh
    use timers, only: timers_t, wall_seconds
    implicit none
    private

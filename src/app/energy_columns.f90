@@ -4,8 +4,8 @@ module energy_columns
    use columns, only: columns_t
    use gradient_fields, only: extent_t, gradient_numbers_t
    use kinds, only: dp
+   use step_state, only: step_t
    use time_scale, only: time_scale_t
-   use time_step, only: step_t
    implicit none
    private
 

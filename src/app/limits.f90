@@ -1,12 +1,13 @@
 !> The limits of the weakly-compressible model, eq. 4 and sec. 2 of the paper: Ma <= 0.1 and |rho - rho0|/rho0 <= 1 %.
 module limits
+   use archive, only: archive_t
    use equation_of_state, only: specific_pressure
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
    use run_log, only: log_t
+   use step_state, only: step_t
    use text, only: short, to_text
-   use time_step, only: step_t
    implicit none
    private
 
@@ -19,12 +20,25 @@ module limits
    type :: extremes_t
       real(dp) :: mach = 0, variation = 0   !! that they were counted at
       integer :: fast = 0, dense = 0        !! particles with more than half of that
+   contains
+      procedure :: archive => archive_extremes
    end type extremes_t
 
    real(dp), parameter :: grown = 1.05_dp         !! since the last count: worth another
    real(dp), parameter :: few_share = 0.01_dp     !! of all particles
 
 contains
+
+   subroutine archive_extremes(self, file)
+      class(extremes_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%part('extremes')
+      call file%keep('mach', self%mach)
+      call file%keep('variation', self%variation)
+      call file%keep('fast', self%fast)
+      call file%keep('dense', self%dense)
+   end subroutine archive_extremes
 
    !> Warns when a limit is passed for the first time, and counts the particles that did it.
    subroutine watch_limits(extremes, log, model, p, run)
@@ -36,18 +50,18 @@ contains
 
       associate (own => p%id(:p%n_own) > 0, u => p%base%u(:p%n_own), v => p%base%v(:p%n_own), s => p%base%s(:p%n_own))
          if (run%mach > max(mach_limit, grown*extremes%mach)) then
+            if (.not. extremes%mach > 0) call log%warn(mach_key, 'Mach number above 0.1 from t = '//short(run%time) &
+                                                       //' on; a larger sound_speed would hold it')
             extremes%mach = run%mach
             extremes%fast = count(own .and. max(u**2 + v**2, specific_pressure(model%c0, model%rho0, s)) > (run%mach*model%c0/2)**2)
          end if
          if (run%variation > max(variation_limit, grown*extremes%variation)) then
+            if (.not. extremes%variation > 0) call log%warn(density_key, 'density varies by more than 1 % from t = ' &
+                                                            //short(run%time)//' on')
             extremes%variation = run%variation
             extremes%dense = count(own .and. abs(s) > run%variation*model%rho0/2)
          end if
       end associate
-      if (run%mach > mach_limit .and. log%warning_count(mach_key) == 0) call log%warn(mach_key, &
-         'Mach number above 0.1 from t = '//short(run%time)//' on; a larger sound_speed would hold it')
-      if (run%variation > variation_limit .and. log%warning_count(density_key) == 0) call log%warn(density_key, &
-         'density varies by more than 1 % from t = '//short(run%time)//' on')
    end subroutine watch_limits
 
    !> Says at the end of the run how far the limits were passed, and which sound speeds would have held them.

@@ -10,6 +10,7 @@ program main
    use preliminary, only: preliminary_text
    use program_arguments, only: take_arguments
    use report, only: start_box
+   use resumed_run, only: resume_run
    use run_log, only: log_t
    use key_writer, only: shortest_input, tables, template
    use scene_input, only: load_scene, read_settings_text
@@ -39,6 +40,8 @@ program main
       write (output_unit, '(a)', advance='no') template(solutions_t())
    else if (options%keys) then
       write (output_unit, '(a)', advance='no') tables(solutions_t())
+   else if (options%resume /= '') then
+      call resume_run(options, problem)
    else
       call run_scene(options, problem)
    end if

@@ -20,9 +20,10 @@ module preliminary
    use scene_setup, only: count_particles, set_up_model, set_up_particles
    use settings, only: is_wall, settings_t
    use step_check, only: check_step
+   use step_state, only: step_t
    use text, only: short, to_text
    use threads, only: limit_threads
-   use time_step, only: advance, refresh, step_t
+   use time_step, only: advance, refresh
    use timers, only: timers_t, wall_seconds
    implicit none
    private

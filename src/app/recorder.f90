@@ -1,5 +1,6 @@
 !> Measures and writes what is due: energies, probes, errors and snapshots.
 module recorder
+   use archive, only: archive_t
    use budget, only: add_rotation, budget_t, start_budget, update_budget, works_t
    use build_info, only: git_id, version
    use cadence, only: cadence_t
@@ -20,9 +21,9 @@ module recorder
    use settings, only: settings_t
    use snapshot, only: snapshot_field, snapshot_head, write_snapshot
    use snapshot_fields, only: fill_fields
+   use step_state, only: step_t
    use table, only: table_t
    use time_scale, only: new_time_scale, time_scale_t
-   use time_step, only: step_t
    implicit none
    private
 
@@ -32,35 +33,65 @@ module recorder
    type :: recorder_t
       type(budget_t) :: budget
       type(series_t) :: series
-      type(cadence_t) :: when_energy, when_probes, when_snapshot
+      type(cadence_t) :: when_energy, when_probes, when_snapshot   !! (not kept: of the scene)
       type(table_t) :: energy_table, probe_table
       type(error_table_t) :: errors
-      type(sensor_t), allocatable :: sensors(:)
-      type(gauge_t), allocatable :: gauges(:)
-      type(snapshot_head) :: head
-      type(time_scale_t) :: scale
-      type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks for them
+      type(sensor_t), allocatable :: sensors(:)   !! (not kept: of the scene)
+      type(gauge_t), allocatable :: gauges(:)     !! (not kept: of the scene)
+      type(snapshot_head) :: head                 !! (not kept: of the scene)
+      type(time_scale_t) :: scale                 !! (not kept: of the scene)
+      real(dp) :: probe_box(2) = 0     !! width of the box and height of the fluid at t = 0, for spectra (not kept: of the scene)
+      type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks (not kept: measured before each use)
       real(dp) :: times(2) = 0         !! of the step before and of the last one recorded,
       integer :: step = -1             !! and its number
    contains
       procedure :: start
+      procedure :: open => open_tables
+      procedure :: begin_anew
       procedure :: record
       procedure :: save_snapshot
+      procedure :: secure
       procedure :: finish
+      procedure :: archive => archive_recorder
    end type recorder_t
 
 contains
 
-   !> Opens the tables that the scene asks for and takes the initial energies.
-   subroutine start(self, scene, input_text, model, p, directory, problem)
+   subroutine archive_recorder(self, file)
+      class(recorder_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call self%budget%archive(file)
+      call self%series%archive(file)
+      call self%errors%archive(file)
+      call file%part('energy')
+      call self%energy_table%archive(file)
+      call file%part('probes')
+      call self%probe_table%archive(file)
+      call file%part('recorded')
+      call file%keep('times', self%times)
+      call file%keep('step', self%step)
+   end subroutine archive_recorder
+
+   !> Forgets which files there were: the run goes on in another directory.
+   subroutine begin_anew(self)
+      class(recorder_t), intent(inout) :: self
+
+      call self%series%begin_anew()
+      call self%errors%begin_anew()
+      call self%energy_table%begin_anew()
+      call self%probe_table%begin_anew()
+   end subroutine begin_anew
+
+   !> Takes the initial energies, and what else is measured at the start.
+   subroutine start(self, scene, input_text, model, p)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       character(*), intent(in) :: input_text   !! complete input, kept in the snapshots
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p       !! base state at t = 0
-      type(result_directory_t), intent(in) :: directory
-      type(failure), intent(inout) :: problem
       character(:), allocatable :: message
+      integer :: k
 
       ! The cadences' texts were checked with the input.
       call self%when_energy%parse(trim(scene%output%energy), message)
@@ -68,71 +99,96 @@ contains
       call self%when_snapshot%parse(trim(scene%output%snapshots), message)
       self%scale = new_time_scale(scene)
       call start_budget(self%budget, model, p, scene%domain%upper(1) - scene%domain%lower(1))
+      if (self%when_energy%is_never()) self%budget%has%rotation = .false.   ! no integral over time without its values
       self%head = snapshot_head(version=version, git_id=git_id, input_text=input_text, &
                                 reference_length=scene%scene%reference_length, spacing=model%dx, sound_speed=model%c0, &
                                 density=model%rho0, gravity=model%gravity)
       ! Within the constructor gfortran 12 takes the length before trimming, and what is in memory after the title.
       self%head%title = trim(scene%scene%title)
-      if (self%when_energy%is_never()) then
-         self%budget%has%rotation = .false.   ! no integral over time without its values
-      else
-         call start_energies(self, scene, directory, problem)
-      end if
-      if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
-         call start_probes(self, scene, model, p, directory, problem)
-      call self%errors%start(scene, model, p, directory%file(errors_name), self%scale, problem)
+      allocate (self%sensors(size(scene%probes)), self%gauges(size(scene%gauges)))
+      do k = 1, size(scene%probes)
+         self%sensors(k) = new_sensor(model, scene%probes(k))
+      end do
+      do k = 1, size(scene%gauges)
+         self%gauges(k) = new_gauge(scene%gauges(k), scene%domain%lower, scene%domain%upper)
+      end do
+      ! For the acoustic modes of the box in spectra; 0 where there are no walls for them.
+      if (all(model%box%has_wall([left_wall, right_wall]))) self%probe_box(1) = scene%domain%upper(1) - scene%domain%lower(1)
+      if (model%box%has_wall(bottom_wall)) &
+         self%probe_box(2) = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
+      call self%errors%start(scene, model, p, self%scale)
    end subroutine start
 
-   subroutine start_energies(self, scene, directory, problem)
+   !> Opens the tables that the scene asks for; those that were begun go on, if all of them can.
+   subroutine open_tables(self, scene, directory, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem   !! exit_files
+      logical :: only_check
+      integer :: pass
+
+      do pass = 1, 2
+         only_check = pass == 1
+         if (problem%raised()) return
+         if (.not. self%when_energy%is_never()) call open_energies(self, scene, directory, only_check, problem)
+         if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
+            call open_probes(self, scene, directory, only_check, problem)
+         call self%errors%open(scene, directory%file(errors_name), only_check, problem)
+      end do
+   end subroutine open_tables
+
+   subroutine open_energies(self, scene, directory, only_check, problem)
+      class(recorder_t), intent(inout) :: self
+      type(settings_t), intent(in) :: scene
+      type(result_directory_t), intent(in) :: directory
+      logical, intent(in) :: only_check
       type(failure), intent(inout) :: problem
       type(columns_t) :: row
       type(step_t) :: at_start
       character(200) :: lines(3)
 
       row = energy_row(self%budget, self%gradients, at_start, self%scale)
+      if (self%energy_table%was_begun()) then
+         call self%energy_table%go_on(directory%file(energy_name), size(row%names), only_check, problem)
+         return
+      end if
+      if (only_check) return
       lines(1) = 'title: '//scene%scene%title
       write (lines(2), '(a, es23.16)') 'dE_Mtot: ', self%budget%normaliser
       lines(3) = 'normalised by dE_Mtot = '//self%budget%scale
       call self%energy_table%create(directory%file(energy_name), lines, row%names, row%units, problem)
-   end subroutine start_energies
+   end subroutine open_energies
 
-   subroutine start_probes(self, scene, model, p, directory, problem)
+   subroutine open_probes(self, scene, directory, only_check, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
       type(result_directory_t), intent(in) :: directory
+      logical, intent(in) :: only_check
       type(failure), intent(inout) :: problem
       character(200) :: head(6 + size(scene%probes) + size(scene%gauges))
-      real(dp) :: width, height
       integer :: k, n
 
       n = size(scene%probes)
-      allocate (self%sensors(n), self%gauges(size(scene%gauges)))
+      if (self%probe_table%was_begun()) then
+         call self%probe_table%go_on(directory%file(probes_name), 2 + n + size(scene%gauges), only_check, problem)
+         return
+      end if
+      if (only_check) return
       head(1) = 'title: '//scene%scene%title
       head(2) = 'sampled every: '//scene%output%probes
-      ! For the acoustic modes of the box in spectra; 0 where there are no walls for them.
-      width = 0
-      height = 0
-      if (all(model%box%has_wall([left_wall, right_wall]))) width = scene%domain%upper(1) - scene%domain%lower(1)
-      if (model%box%has_wall(bottom_wall)) height = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
-      write (head(3), '(a, es23.16)') 'sound_speed: ', model%c0
-      write (head(4), '(a, es23.16)') 'domain_width: ', width
-      write (head(5), '(a, es23.16)') 'fluid_height: ', height
+      write (head(3), '(a, es23.16)') 'sound_speed: ', self%head%sound_speed
+      write (head(4), '(a, es23.16)') 'domain_width: ', self%probe_box(1)
+      write (head(5), '(a, es23.16)') 'fluid_height: ', self%probe_box(2)
       head(6) = 'A pressure is the mean over a disc or segment on a wall; what is dry counts as 0.'
       do k = 1, n
          associate (probe => scene%probes(k))
-            self%sensors(k) = new_sensor(model, probe)
             write (head(k + 6), '(3a, 2(es14.7, 1x), 2(a, es14.7))') 'probe ', trim(probe%name), ' at ', probe%position, &
                'diameter', probe%diameter, ' length', probe%length
          end associate
       end do
       do k = 1, size(scene%gauges)
          associate (gauge => scene%gauges(k))
-            self%gauges(k) = new_gauge(gauge, scene%domain%lower, scene%domain%upper)
             write (head(k + n + 6), '(5a, es14.7, 2a)') 'gauge ', trim(gauge%name), ' along ', trim(gauge%along), ' at', gauge%at, &
                ' measures ', gauge%measure
          end associate
@@ -141,7 +197,7 @@ contains
                                    [character(32) :: 'time', 'time_scaled', scene%probes%name, scene%gauges%name], &
                                    [character(32) :: 'time', self%scale%name, spread('pressure', 1, n), &
                                     spread('length', 1, size(scene%gauges))], problem)
-   end subroutine start_probes
+   end subroutine open_probes
 
    !> Measures and writes what is due at the base state, or everything at the end of the run. The budget is taken
    !! as often as energies are written, and at the end in any case.
@@ -246,14 +302,26 @@ contains
       path = directory%snapshot_path(self%series%count())
       call write_snapshot(path, self%head, id, p%base%x(slot), p%base%y(slot), fields, scene%output%precision, problem)
       if (problem%raised()) return
-      call self%series%add(directory%file(series_name), path(index(path, '/', back=.true.) + 1:), run%time, problem)
+      call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
 
-   !> Closes the tables.
-   subroutine finish(self, problem)
+   !> All rows so far are on the disk.
+   subroutine secure(self, problem)
       class(recorder_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files
+
+      call self%energy_table%secure(problem)
+      call self%probe_table%secure(problem)
+      call self%errors%secure(problem)
+   end subroutine secure
+
+   !> Closes the tables.
+   subroutine finish(self, directory, problem)
+      class(recorder_t), intent(inout) :: self
+      type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem
 
+      call self%series%finish(directory%file(series_name), problem)
       call self%energy_table%close(problem)
       call self%probe_table%close(problem)
       call self%errors%finish(problem)

@@ -11,17 +11,15 @@ module report
    use lanes, only: nl, root_name
    use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t, terms_t
-   use neighbours, only: neighbours_t
    use omp_lib, only: omp_get_max_threads
-   use particles, only: particles_t
    use progress, only: duration_text
-   use recorder, only: recorder_t
    use room, only: output_bytes
    use run_log, only: log_t
+   use run_state, only: run_state_t
    use settings, only: settings_t
+   use step_state, only: step_t
    use summary, only: summary_t
    use text, only: short, to_text
-   use time_step, only: step_t
    use timers, only: timers_t
    implicit none
    private
@@ -89,7 +87,7 @@ contains
          words = 'energy '//trim(output%energy)
          if (size(scene%probes) + size(scene%gauges) > 0) words = words//', probes '//trim(output%probes)
          if (scene%exact%solution /= 'none') words = words//', errors '//trim(output%errors)
-         words = words//', snapshots '//trim(output%snapshots)
+         words = words//', snapshots '//trim(output%snapshots)//', checkpoint '//trim(output%checkpoint)
       end associate
    end function output_text
 
@@ -166,18 +164,20 @@ contains
    function not_written(scene) result(words)
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: words, message
-      type(cadence_t) :: energy, probes, errors, snapshots
+      type(cadence_t) :: energy, probes, errors, snapshots, checkpoint
 
       ! The cadences' texts were checked with the input.
       call energy%parse(trim(scene%output%energy), message)
       call probes%parse(trim(scene%output%probes), message)
       call errors%parse(trim(scene%output%errors), message)
       call snapshots%parse(trim(scene%output%snapshots), message)
-      words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'snapshots', 'dissipation field'], &
+      call checkpoint%parse(trim(scene%output%checkpoint), message, by_clock=.true.)
+      words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'snapshots', 'checkpoints', &
+                          'dissipation field'], &
                          [energy%is_never(), size(scene%probes) == 0 .or. probes%is_never(), &
                           size(scene%gauges) == 0 .or. probes%is_never(), &
                           scene%exact%solution == 'none' .or. errors%is_never(), snapshots%is_never(), &
-                          .not. any(scene%output%fields(:scene%output%n_fields) == 'dissipation')])
+                          checkpoint%is_never(), .not. any(scene%output%fields(:scene%output%n_fields) == 'dissipation')])
    end function not_written
 
    ! The names marked, parted by commas; 'nothing' if there is none.
@@ -262,44 +262,45 @@ contains
    end function works_text
 
    !> The file of `key = value` lines.
-   subroutine write_summary_file(path, status, reason, p, near, run, seconds, recorder, problem)
+   subroutine write_summary_file(path, status, reason, origin, state, seconds, problem)
       character(*), intent(in) :: path
       character(*), intent(in) :: status
       character(*), intent(in) :: reason      !! why it failed; '' if it did not
-      type(particles_t), intent(in) :: p
-      type(neighbours_t), intent(in) :: near
-      type(step_t), intent(in) :: run
+      character(*), intent(in) :: origin      !! where it was forked from; '' if it was not
+      type(run_state_t), intent(in) :: state
       real(dp), intent(in) :: seconds
-      type(recorder_t), intent(in) :: recorder
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
 
-      rate = real(p%n, dp)*run%step/max(seconds, tiny(1.0_dp))
-      call file%add('status', status)
-      if (reason /= '') call file%add('reason', reason)
-      call file%add('particles', p%n)
-      call file%add('bytes_per_particle', real(p%bytes() + near%bytes(), dp)/p%n)
-      call file%add('steps', run%step)
-      call file%add('time', run%time)
-      call file%add('threads', omp_get_max_threads())
-      call file%add('lanes', nl)
-      call file%add('root', root_name)
-      call file%add('run_seconds', seconds)
-      call file%add('particle_steps_per_second', rate)
-      if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/rate)
-      if (.not. rate > 0) call file%add('ns_per_particle_step_per_core', 'none')
-      call summarise_budget(recorder%budget, file)
-      call file%add('max_density_variation', run%largest_variation)
-      call file%add('max_mach', run%largest_mach)
-      call file%add('sound_speed_needed_density', sound_speed_for_density(recorder%head%sound_speed, run))
-      call file%add('sound_speed_needed_mach', sound_speed_for_mach(recorder%head%sound_speed, run))
-      call file%add('wall_crossings', run%crossings)
-      call file%add('singular_gradients', run%singular)
-      call file%add('times_sorted', run%sorted)
-      call file%add('steps_repeated', run%repeated)
-      call file%add('steps_limited', run%limited)
-      call recorder%errors%add_to(file)
+      associate (run => state%step, p => state%p)
+         rate = real(p%n, dp)*(run%step - state%first_step)/max(seconds, tiny(1.0_dp))
+         call file%add('status', status)
+         if (reason /= '') call file%add('reason', reason)
+         if (origin /= '') call file%add('forked_from', origin)
+         call file%add('particles', p%n)
+         call file%add('bytes_per_particle', real(p%bytes() + state%near%bytes(), dp)/p%n)
+         call file%add('steps', run%step)
+         call file%add('time', run%time)
+         call file%add('threads', omp_get_max_threads())
+         call file%add('lanes', nl)
+         call file%add('root', root_name)
+         call file%add('run_seconds', seconds)
+         call file%add('particle_steps_per_second', rate)
+         if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/rate)
+         if (.not. rate > 0) call file%add('ns_per_particle_step_per_core', 'none')
+         call summarise_budget(state%recorder%budget, file)
+         call file%add('max_density_variation', run%largest_variation)
+         call file%add('max_mach', run%largest_mach)
+         call file%add('sound_speed_needed_density', sound_speed_for_density(state%recorder%head%sound_speed, run))
+         call file%add('sound_speed_needed_mach', sound_speed_for_mach(state%recorder%head%sound_speed, run))
+         call file%add('wall_crossings', run%crossings)
+         call file%add('singular_gradients', run%singular)
+         call file%add('times_sorted', run%sorted)
+         call file%add('steps_repeated', run%repeated)
+         call file%add('steps_limited', run%limited)
+         call state%recorder%errors%add_to(file)
+      end associate
       call file%write(path, problem)
    end subroutine write_summary_file
 

@@ -14,6 +14,7 @@ module room
    public :: check_room, output_bytes
 
    real(dp), parameter :: number_width = 25      !! letters of a number in a table
+   real(dp), parameter :: checkpoint_bytes = 64  !! of a particle in each of the two
    real(dp), parameter :: energy_columns = 30, error_columns = 10   !! about
 
 contains
@@ -73,6 +74,7 @@ contains
          if (size(scene%probes) + size(scene%gauges) > 0) &
             bytes = bytes + written(output%probes)*(2 + size(scene%probes) + size(scene%gauges))*number_width
          if (scene%exact%solution /= 'none') bytes = bytes + written(output%errors)*error_columns*number_width
+         if (output%checkpoint /= 'never') bytes = bytes + 2*costs%particles*checkpoint_bytes
       end associate
 
    contains

@@ -11,7 +11,7 @@ module scene_run
    use scene_input, only: read_settings_text
    use scene_setup, only: set_up_model
    use settings, only: settings_t
-   use simulation, only: simulate
+   use simulation, only: beginning_t, simulate
    use solution_register, only: solutions_t
    use text, only: short, to_text
    implicit none
@@ -31,6 +31,7 @@ contains
       type(margins_t), intent(in), optional :: margins   !! of the step rule, other than the safe ones
       type(result_directory_t) :: directory
       type(log_t) :: log
+      type(beginning_t) :: beginning
       character(:), allocatable :: input_text
       logical :: began
       integer :: k
@@ -50,15 +51,18 @@ contains
          //short(margins%diffusion)//', viscous '//short(margins%viscous)//' of a lattice''s limits; warnings about cfl mean ' &
          //'those of dynsph')
       if (.not. problem%raised()) then
-         input_text = complete_input(solutions_t(), scene)
-         call write_whole_file(directory%file(input_name), input_text, problem)
+         beginning%input = complete_input(solutions_t(), scene)
+         beginning%origin = ''
+         call write_whole_file(directory%file(input_name), beginning%input, problem)
       end if
       if (problem%raised()) then
          call log%close()
          call directory%discard(problem)
          return
       end if
-      call simulate(scene, set_up_model(scene, margins), input_text, directory, log, began, problem)
+      input_text = beginning%input
+      if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
+      call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
       call log%close()
       ! A run that could not start leaves nothing behind.
       if (.not. began) call directory%discard(problem)

@@ -1,29 +1,41 @@
 !> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
 module simulation
+   use checkpoint_file, only: checkpoint_file_t
+   use checkpoints, only: checkpoints_t
    use cost, only: cost_t, estimate_cost
-   use errors, only: exit_numerics, failure
+   use errors, only: exit_files, exit_numerics, exit_stopped, failure
+   use file_system, only: delete_file, path_exists, write_whole_file
    use kinds, only: dp
-   use limits, only: extremes_t, report_limits, watch_limits
+   use limits, only: report_limits, watch_limits
    use model, only: model_t
-   use neighbours, only: neighbours_t
-   use particles, only: particles_t
    use progress, only: progress_t
-   use recorder, only: recorder_t
    use report, only: closing_table, start_box, write_summary_file
-   use result_directory, only: result_directory_t, summary_name
+   use result_directory, only: input_name, result_directory_t, series_name, summary_name
    use room, only: check_room
    use run_log, only: log_t
+   use run_state, only: run_state_t
    use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
    use step_check, only: check_step
+   use step_state, only: start_extremes, step_t
+   use stopping, only: stopping_t
    use text, only: short, to_text
    use threads, only: limit_threads
-   use time_step, only: advance, refresh, start_extremes, step_t
+   use time_step, only: advance, go_on, refresh, sorts_next
    use timers, only: timers_t, wall_seconds
    implicit none
    private
 
-   public :: simulate
+   public :: simulate, beginning_t
+
+   !> Where a run begins.
+   type :: beginning_t
+      character(:), allocatable :: input    !! complete input, for the checkpoints; '' where there shall be none
+      character(:), allocatable :: origin   !! where it was forked from; '' if it was not
+      integer :: turn = 0                   !! which checkpoint of the directory it goes on from; 0: it begins at t = 0
+      logical :: forked = .false.           !! it goes on in another directory
+      type(checkpoint_file_t) :: file       !! open, where it does not begin at t = 0
+   end type beginning_t
 
    integer, parameter :: phase_output = 5
    real(dp), parameter :: poor_balance = 5.0e-3_dp   !! error of the energy balance that is worth a warning
@@ -33,21 +45,20 @@ module simulation
 contains
 
    !> Runs a checked scene and writes its results.
-   subroutine simulate(scene, model, input_text, directory, log, began, problem)
+   subroutine simulate(scene, model, input_text, beginning, directory, log, began, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model       !! of the scene
-      character(*), intent(in) :: input_text   !! complete input
+      character(*), intent(in) :: input_text   !! complete input, for the snapshots
+      type(beginning_t), intent(inout) :: beginning
       type(result_directory_t), intent(in) :: directory
       type(log_t), intent(inout) :: log
       logical, intent(out) :: began             !! there are results to keep
-      type(failure), intent(inout) :: problem   !! exit_numerics, exit_files
+      type(failure), intent(inout) :: problem   !! exit_numerics, exit_files; exit_stopped: it can go on
       type(cost_t) :: costs
-      type(particles_t) :: p
-      type(neighbours_t) :: near
-      type(step_t) :: run
-      type(recorder_t) :: recorder
+      type(run_state_t) :: state
+      type(checkpoints_t) :: saving
+      type(stopping_t) :: stop
       type(timers_t) :: timers
-      type(extremes_t) :: extremes
       type(failure) :: closing
       character(:), allocatable :: status, reason
       real(dp) :: started, seconds
@@ -60,92 +71,182 @@ contains
       if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
-      call set_up_particles(scene, model, p)
-      call refresh(model, p, near, run, timers)
-      if (run%scattered) then
-         call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long: move the bodies closer in x')
-         return
-      end if
-      call start_extremes(model, p, run)
-      call recorder%start(scene, input_text, model, p, directory, problem)
+      call set_up(scene, model, input_text, beginning, state, timers, problem)
+      if (.not. problem%raised()) call state%recorder%open(scene, directory, problem)
+      if (.not. problem%raised() .and. beginning%turn > 0) call take_over(state, input_text, directory, problem)
       if (problem%raised()) then
-         call recorder%finish(closing)
+         call state%recorder%finish(directory, closing)
          return
       end if
       began = .true.
-      call main_loop(scene, model, p, near, run, recorder, directory, log, timers, extremes, status, problem)
+      call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0))
+      call stop%begin(scene%time%max_wall_time)
+      call main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
       ! A failed run keeps all that it has measured.
-      call recorder%finish(closing)
+      call state%recorder%finish(directory, closing)
       reason = ''
       if (problem%raised()) reason = problem%message
       seconds = wall_seconds() - started
-      call write_summary_file(directory%file(summary_name), status, reason, p, near, run, seconds, recorder, closing)
+      call write_summary_file(directory%file(summary_name), status, reason, beginning%origin, state, seconds, closing)
       if (closing%raised()) call problem%raise(closing%code, closing%message)
-      if (recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
-         //short(recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
-      call report_limits(extremes, log, model%c0, p%n, run)
-      if (.not. problem%raised() .and. run%time < scene%time%end_time) call log%warn('ended early', 'the run ended at t = ' &
-         //short(run%time)//' of end_time = '//short(scene%time%end_time)//': '//limit_reached(scene, status))
+      if (state%recorder%budget%largest_error > poor_balance) call log%warn('energy balance', 'the energy budget closes only to ' &
+         //short(state%recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
+      call report_limits(state%extremes, log, model%c0, state%p%n, state%step)
+      if (.not. problem%raised() .and. state%step%time < scene%time%end_time) &
+         call say_that_it_ended_early(scene, state%step, stop%reason, beginning%input /= '', directory%path, log, problem)
       if (reason /= '') call log%keep(reason)
       call log%report_warnings()
-      call closing_table(log, timers, seconds, recorder%budget, run, directory%path)
+      call closing_table(log, timers, seconds, state%recorder%budget, state%step, directory%path)
+      call stop%finish()
    end subroutine simulate
 
-   subroutine main_loop(scene, model, p, near, run, recorder, directory, log, timers, extremes, status, problem)
+   ! The state that the run begins with. What is measured at t = 0 is found again where it goes on.
+   subroutine set_up(scene, model, input_text, beginning, state, timers, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(inout) :: near
-      type(step_t), intent(inout) :: run
-      type(recorder_t), intent(inout) :: recorder
+      character(*), intent(in) :: input_text
+      type(beginning_t), intent(inout) :: beginning
+      type(run_state_t), intent(inout) :: state
+      type(timers_t), intent(inout) :: timers
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: reason
+
+      call set_up_particles(scene, model, state%p)
+      call refresh(model, state%p, state%near, state%step, timers)
+      if (.not. state%step%scattered) then
+         call start_extremes(model, state%p, state%step)
+         call state%recorder%start(scene, input_text, model, state%p)
+         if (beginning%turn > 0 .or. beginning%forked) then
+            if (beginning%file%particles == state%p%n) call state%archive(beginning%file)
+            reason = beginning%file%missing()
+            if (beginning%file%particles /= state%p%n) reason = 'it has another number of particles than the scene'
+            call beginning%file%close()
+            if (reason /= '') call problem%raise(exit_files, "cannot go on from '"//beginning%file%path//"': "//reason)
+            if (problem%raised()) return
+            state%first_step = state%step%step
+            if (beginning%forked) call state%recorder%begin_anew()
+            call go_on(model, state%p, state%near, state%step, state%plan, timers)
+         end if
+      end if
+      if (state%step%scattered) call problem%raise(exit_numerics, &
+         'the fluid is more than 4 million strips of width h long: move the bodies closer in x')
+   end subroutine set_up
+
+   ! Deletes what was written behind the checkpoint: it comes again.
+   subroutine take_over(state, input_text, directory, problem)
+      type(run_state_t), intent(inout) :: state
+      character(*), intent(in) :: input_text
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: ignored
+
+      call write_whole_file(directory%file(input_name), input_text, problem)
+      if (problem%raised()) return
+      call delete_file(directory%file(summary_name), ignored)
+      call directory%delete_later_snapshots(state%recorder%series%count(), problem)
+      if (problem%raised()) return
+      if (state%recorder%series%count() > 0) then
+         call state%recorder%series%write(directory%file(series_name), problem)
+      else if (path_exists(directory%file(series_name))) then
+         call delete_file(directory%file(series_name), ignored)
+      end if
+   end subroutine take_over
+
+   subroutine main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(run_state_t), intent(inout) :: state
+      type(checkpoints_t), intent(inout) :: saving
+      type(stopping_t), intent(inout) :: stop
       type(result_directory_t), intent(in) :: directory
       type(log_t), intent(inout) :: log
       type(timers_t), intent(inout) :: timers
-      type(extremes_t), intent(inout) :: extremes
       character(:), allocatable, intent(out) :: status
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
       type(step_t) :: before
-      type(failure) :: ignored
-      real(dp) :: started
+      logical :: saved   ! this state, because the run shall stop
 
-      started = wall_seconds()
-      call progress%start(0.0_dp, scene%time%end_time, 0, p%n)
+      call progress%start(state%step%time, scene%time%end_time, state%step%step, state%p%n)
       call progress%limit(scene%time%max_steps, scene%time%max_wall_time)
+      saved = .false.
       do
-         status = reason_to_end(scene, run, wall_seconds() - started)
+         status = reason_to_end(scene, state%step)
+         if (status == '' .and. saved) status = 'stopped: '//stop%reason
          call timers%start(phase_output)
-         call recorder%record(scene, model, p, near, run, directory, status /= '', problem)
+         call state%recorder%record(scene, model, state%p, state%near, state%step, directory, status /= '', problem)
          call timers%stop(phase_output)
          if (problem%raised()) status = 'failed: output'
          if (status /= '') exit
-         before = run
-         call advance(model, p, near, run, scene%time%end_time, timers)
-         call check_step(model, p, run, scene%time%end_time, problem)
+         before = state%step
+         call advance(model, state%p, state%near, state%step, scene%time%end_time, timers)
+         call check_step(model, state%p, state%step, scene%time%end_time, problem)
          if (.not. problem%raised()) then
-            call refresh(model, p, near, run, timers)
-            if (run%scattered) call check_step(model, p, run, scene%time%end_time, problem)
+            call stop%look(directory)
+            call saving%watch(state%step%step, state%step%time, before%time)
+            call timers%start(phase_output)
+            call save_if_wanted(scene, model, state, saving, stop%reason /= '', directory, saved, problem)
+            call timers%stop(phase_output)
+            if (problem%raised()) then
+               status = 'failed: output'
+               state%step = before   ! the last one that was recorded
+               exit
+            end if
+            call refresh(model, state%p, state%near, state%step, timers)
+            if (state%step%scattered) call check_step(model, state%p, state%step, scene%time%end_time, problem)
          end if
          if (problem%raised()) then
             status = 'failed: numerics'
-            problem%message = problem%message//'. The state before the step is in the last snapshot.'
-            ! The state before the step is still there. A second failure would hide the first.
-            run = before
-            if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, p, near, run, directory, &
-                                                                                          ignored)
-            call recorder%record(scene, model, p, near, run, directory, .true., ignored)
+            ! The state before the step is still there.
+            state%step = before
+            call record_failure(scene, model, state, directory, problem)
             exit
          end if
-         call watch_limits(extremes, log, model, p, run)
-         call progress%update(log, run%time, run%dt, run%step)
+         call watch_limits(state%extremes, log, model, state%p, state%step)
+         call progress%update(log, state%step%time, state%step%dt, state%step%step)
       end do
    end subroutine main_loop
 
+   ! A checkpoint of the state `next`, if there is to be one and can be.
+   subroutine save_if_wanted(scene, model, state, saving, stop, directory, saved, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(run_state_t), intent(inout) :: state
+      type(checkpoints_t), intent(inout) :: saving
+      logical, intent(in) :: stop             !! the run shall stop as soon as it can
+      type(result_directory_t), intent(in) :: directory
+      logical, intent(inout) :: saved         !! and now it can
+      type(failure), intent(inout) :: problem
+      logical :: now
+
+      now = sorts_next(state%near, state%step)
+      if (now) now = saving%wanted(scene, model, state, stop)
+      if (.not. now) return
+      if (saving%input /= '') call saving%write(model, state, directory, problem)
+      saved = stop
+   end subroutine save_if_wanted
+
+   ! All that is known of the last good state. A second failure would hide the first.
+   subroutine record_failure(scene, model, state, directory, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(run_state_t), intent(inout) :: state   !! before the step that failed
+      type(result_directory_t), intent(in) :: directory
+      type(failure), intent(inout) :: problem
+      type(failure) :: ignored
+
+      problem%message = problem%message//'. The state before the step is in the last snapshot.'
+      associate (recorder => state%recorder)
+         if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, state%p, state%near, state%step, &
+                                                                            directory, ignored)
+         call recorder%record(scene, model, state%p, state%near, state%step, directory, .true., ignored)
+      end associate
+   end subroutine record_failure
+
    ! Why the run ends at this state; '' if it goes on.
-   function reason_to_end(scene, run, seconds) result(status)
+   function reason_to_end(scene, run) result(status)
       type(settings_t), intent(in) :: scene
       type(step_t), intent(in) :: run
-      real(dp), intent(in) :: seconds   !! of wall time so far
       character(:), allocatable :: status
 
       status = ''
@@ -153,19 +254,31 @@ contains
          status = 'finished'
       else if (scene%time%max_steps > 0 .and. run%step >= scene%time%max_steps) then
          status = 'stopped: max_steps'
-      else if (scene%time%max_wall_time > 0 .and. seconds > scene%time%max_wall_time) then
-         status = 'stopped: max_wall_time'
       end if
    end function reason_to_end
 
-   ! The key, with its value, that a status names.
-   function limit_reached(scene, status) result(words)
+   ! How it goes on; a run that was stopped from outside has an exit code of its own.
+   subroutine say_that_it_ended_early(scene, run, reason, resumable, path, log, problem)
       type(settings_t), intent(in) :: scene
-      character(*), intent(in) :: status
-      character(:), allocatable :: words
+      type(step_t), intent(in) :: run
+      character(*), intent(in) :: reason   !! to stop; '' for max_steps
+      logical, intent(in) :: resumable     !! there is a checkpoint
+      character(*), intent(in) :: path     !! of the results
+      type(log_t), intent(inout) :: log
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: words, why
 
-      words = '&time max_wall_time = '//short(scene%time%max_wall_time)//' s'
-      if (index(status, 'max_steps') > 0) words = '&time max_steps = '//to_text(scene%time%max_steps)
-   end function limit_reached
+      why = reason
+      if (why == '') why = '&time max_steps = '//to_text(scene%time%max_steps)
+      if (why == 'max_wall_time') why = '&time max_wall_time = '//short(scene%time%max_wall_time)//' s'
+      words = 'the run ended at t = '//short(run%time)//' of end_time = '//short(scene%time%end_time)//': '//why
+      if (reason == '') then
+         call log%warn('ended early', words)
+      else
+         if (resumable) words = words//'. It goes on with: dynsph --resume '//path
+         call log%keep(words)
+         call problem%raise(exit_stopped, words)
+      end if
+   end subroutine say_that_it_ended_early
 
 end module simulation

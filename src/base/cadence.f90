@@ -1,4 +1,4 @@
-!> How often something is done: every n steps, every T in time, or never.
+!> How often something is done: every n steps, every T in time, every T of the clock on the wall, or never.
 !!
 !! Whether an output is due follows from the counts of steps and of time alone,
 !! not from when the last one was written: nothing accumulates, and a restarted
@@ -11,18 +11,20 @@ module cadence
 
    public :: cadence_t
 
-   integer, parameter :: kind_never = 0, kind_steps = 1, kind_time = 2
+   integer, parameter :: kind_never = 0, kind_steps = 1, kind_time = 2, kind_clock = 3
    character(*), parameter :: wanted = "write '10 steps', '0.05 time' or 'never'"
+   character(*), parameter :: wanted_or_clock = "write '10 minutes' (seconds, hours), '10 steps', '0.05 time' or 'never'"
 
    !> When a repeated action is due.
    type :: cadence_t
       private
       integer :: kind_of = kind_never
       integer :: step_interval = 1          ! steps
-      real(dp) :: time_interval = 1.0_dp    ! [s]
+      real(dp) :: time_interval = 1.0_dp    ! of the flow, or of the clock [s]
    contains
       procedure :: parse
       procedure :: is_due
+      procedure :: is_due_by_clock
       procedure :: is_never
       procedure :: interval
       procedure :: number => number_of_times
@@ -31,27 +33,43 @@ module cadence
 
 contains
 
-   !> Reads '10 steps', '0.05 time' or 'never'.
-   subroutine parse(self, phrase, message)
+   !> Reads '10 steps', '0.05 time' or 'never'; where the clock may rule too, '10 minutes'.
+   subroutine parse(self, phrase, message, by_clock)
       class(cadence_t), intent(out) :: self
       character(*), intent(in) :: phrase
       character(:), allocatable, intent(out) :: message   !! '' when understood, else why not
+      logical, intent(in), optional :: by_clock
+      character(:), allocatable :: number, word, hint
+      logical :: clock
 
-      character(:), allocatable :: number, word
-
+      clock = .false.
+      if (present(by_clock)) clock = by_clock
+      hint = wanted
+      if (clock) hint = wanted_or_clock
       call split_phrase(phrase, number, word)
       message = ''
+      if (word == 'never' .and. number == '') return
       select case (word)
-      case ('never')
-         if (number /= '') message = quoted(phrase)//' is not a cadence; '//wanted
       case ('step', 'steps')
          call read_steps(number, self, message)
       case ('time')
-         call read_time(number, self, message)
+         call read_time(number, 'time', 1.0_dp, kind_time, self, message)
+      case ('second', 'seconds', 'minute', 'minutes', 'hour', 'hours')
+         if (clock) call read_time(number, word, seconds_in(word), kind_clock, self, message)
+         if (.not. clock) message = quoted(phrase)//' is not a cadence'
       case default
-         message = quoted(phrase)//' is not a cadence; '//wanted
+         message = quoted(phrase)//' is not a cadence'
       end select
+      if (message /= '') message = message//'; '//hint
    end subroutine parse
+
+   pure real(dp) function seconds_in(word) result(seconds)
+      character(*), intent(in) :: word
+
+      seconds = 1
+      if (index(word, 'minute') == 1) seconds = 60
+      if (index(word, 'hour') == 1) seconds = 3600
+   end function seconds_in
 
    !> Parts '10 steps' into '10' and 'steps', 'never' into '' and 'never'.
    pure subroutine split_phrase(phrase, number, word)
@@ -82,30 +100,26 @@ contains
 
       call parse_integer(number, steps, message)
       if (message == '' .and. steps < 1) message = to_text(steps)//' steps is less than one'
-      if (message == '') then
-         self%kind_of = kind_steps
-         self%step_interval = steps
-      else
-         message = message//'; '//wanted
-      end if
+      if (message /= '') return
+      self%kind_of = kind_steps
+      self%step_interval = steps
    end subroutine read_steps
 
    !> Takes the time between two outputs.
-   pure subroutine read_time(number, self, message)
-      character(*), intent(in) :: number
+   pure subroutine read_time(number, word, unit, kind_of, self, message)
+      character(*), intent(in) :: number, word
+      real(dp), intent(in) :: unit       !! what the word means
+      integer, intent(in) :: kind_of
       type(cadence_t), intent(inout) :: self
       character(:), allocatable, intent(out) :: message
 
       real(dp) :: interval
 
       call parse_real(number, interval, message)
-      if (message == '' .and. interval <= 0.0_dp) message = to_text(interval)//' time is not above 0'
-      if (message == '') then
-         self%kind_of = kind_time
-         self%time_interval = interval
-      else
-         message = message//'; '//wanted
-      end if
+      if (message == '' .and. interval <= 0.0_dp) message = to_text(interval)//' '//word//' is not above 0'
+      if (message /= '') return
+      self%kind_of = kind_of
+      self%time_interval = interval*unit
    end subroutine read_time
 
    !> Whether the action is due at the state (step, time), reached from the state at time_before.
@@ -126,6 +140,14 @@ contains
          is_due = .false.
       end select
    end function is_due
+
+   !> Whether the action is due so long after the last one.
+   pure logical function is_due_by_clock(self, seconds)
+      class(cadence_t), intent(in) :: self
+      real(dp), intent(in) :: seconds   !! of the clock on the wall
+
+      is_due_by_clock = self%kind_of == kind_clock .and. seconds >= self%time_interval
+   end function is_due_by_clock
 
    !> Number of whole intervals that have passed at a time: k once k T is reached.
    !! The guess time/T is put right against k*T itself, because the rounded

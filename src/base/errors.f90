@@ -15,6 +15,7 @@ module errors
    integer, parameter, public :: exit_input = 1      !! command line or namelist
    integer, parameter, public :: exit_numerics = 2   !! the solution left its range
    integer, parameter, public :: exit_files = 3      !! a file or directory
+   integer, parameter, public :: exit_stopped = 4    !! stopped from outside; the run can go on
 
    !> What went wrong: what, where, and what to do about it.
    type :: failure

@@ -11,8 +11,8 @@ module file_system
    implicit none
    private
 
-   public :: delete_file, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, path_exists, &
-      publish, read_whole_file, remove_directory, rename_file, write_whole_file
+   public :: delete_file, file_bytes, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, &
+      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
    character(*), parameter, public :: no_space = 'no space left on the disk'
@@ -109,6 +109,32 @@ module file_system
          integer(c_int), value :: descriptor
       end function c_fdatasync
 
+      integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_fsync
+
+      integer(c_int) function c_truncate(path, length) bind(c, name='truncate')
+         import :: c_char, c_int, c_long
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_long), value :: length
+      end function c_truncate
+
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+
+      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fileno
+
+      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
+
       type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
          import :: c_ptr
       end function c_errno_address
@@ -192,6 +218,38 @@ contains
 
       reason = reason_of(c_rename(c_text(from), c_text(to)))
    end subroutine rename_file
+
+   !> Cuts a file behind its first bytes.
+   subroutine shorten_file(path, bytes, reason)
+      character(*), intent(in) :: path
+      integer(i8), intent(in) :: bytes
+      character(:), allocatable, intent(out) :: reason
+
+      reason = reason_of(c_truncate(c_text(path), int(bytes, c_long)))
+   end subroutine shorten_file
+
+   !> Length of a file; -1 where there is none.
+   integer(i8) function file_bytes(path)
+      character(*), intent(in) :: path
+
+      inquire (file=path, size=file_bytes)
+   end function file_bytes
+
+   !> Returns once a file, or the names in a directory, are on the disk: a machine that loses its power does not lose them.
+   subroutine secure_path(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: reason
+      type(c_ptr) :: stream
+      integer(c_int) :: ignored
+
+      stream = c_fopen(c_text(path), 'r'//c_null_char)
+      if (.not. c_associated(stream)) then
+         reason = reason_of(1_c_int)
+         return
+      end if
+      reason = reason_of(c_fsync(c_fileno(stream)))
+      ignored = c_fclose(stream)
+   end subroutine secure_path
 
    !> The paths in a directory whose name matches a shell pattern, sorted.
    subroutine find_files(directory, pattern, paths)
@@ -309,6 +367,15 @@ contains
       has_size = status /= 0
       if (has_size) has_size = c_write(descriptor, c_null_char, 0_c_size_t) == 0
    end function has_size
+
+   !> As `has_size`, and what was written is on the disk.
+   logical function secure_unit(unit, bytes)
+      integer, intent(in) :: unit
+      integer(i8), intent(in) :: bytes   !! written so far
+
+      secure_unit = has_size(unit, bytes)
+      if (secure_unit) secure_unit = c_fdatasync(c_descriptor(int(unit, c_int))) == 0
+   end function secure_unit
 
    !> The system's words for the call that returned this status; '' for success.
    function reason_of(status) result(reason)

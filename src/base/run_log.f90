@@ -55,20 +55,24 @@ module run_log
 
 contains
 
-   !> Starts a log file; an earlier one of that name is replaced.
-   subroutine open_log(self, path, quiet, problem)
+   !> Starts a log file; an earlier one of that name is replaced, or goes on.
+   subroutine open_log(self, path, quiet, problem, goes_on)
       class(log_t), intent(inout) :: self
       character(*), intent(in) :: path          !! '' for a log without a file
       logical, intent(in) :: quiet              !! nothing on standard output; warnings go to standard error
       type(failure), intent(inout) :: problem   !! exit_files: the file cannot be written
+      logical, intent(in), optional :: goes_on
       character(256) :: message
+      character(7) :: before
       integer :: status
 
       self%quiet = quiet
       self%terminal = c_isatty(1_c_int) == 1
       self%unicode = locale_is_utf8()
       if (path == '') return
-      open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
+      before = 'replace'
+      if (present(goes_on)) before = merge('unknown', 'replace', goes_on)
+      open (newunit=self%unit, file=path, status=before, position='append', action='write', iostat=status, iomsg=message)
       if (status == 0) return
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))

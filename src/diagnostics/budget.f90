@@ -4,6 +4,7 @@
 !! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
 !! the uniform force gave.
 module budget
+   use archive, only: archive_t
    use box, only: bottom_wall, is_wall, left_wall, right_wall
    use energy, only: energies_t, measure_energies
    use exact_sum, only: exact_totals
@@ -21,15 +22,15 @@ module budget
       real(dp) :: alpha = 0, delta = 0, walls = 0, force = 0
    end type works_t
 
-   !> Where the energy is and has gone.
+   !> Where the energy is and has gone. Not kept is what `start_budget` finds again.
    type :: budget_t
-      type(terms_t) :: has                   !! what it consists of besides kinetic and elastic energy
-      type(energies_t) :: initial
-      type(energies_t) :: rest               !! 0 where the scene has no tank that it could rest in
-      logical :: has_rest = .false.
-      real(dp) :: normaliser = 1             !! Delta E_Mtot, or another scale: start_budget
-      character(:), allocatable :: scale     !! what the normaliser is, in words
-      type(energies_t) :: now
+      type(terms_t) :: has                   !! what it consists of besides kinetic and elastic energy (not kept: of the scene)
+      type(energies_t) :: initial            !! (not kept: of the scene)
+      type(energies_t) :: rest               !! 0 where the scene has no tank that it could rest in (not kept: of the scene)
+      logical :: has_rest = .false.          !! (not kept: of the scene)
+      real(dp) :: normaliser = 1             !! Delta E_Mtot, or another scale: start_budget (not kept: of the scene)
+      character(:), allocatable :: scale     !! what the normaliser is, in words (not kept: of the scene)
+      type(energies_t) :: now                !! (not kept: measured with each update)
       real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
       real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
       real(dp) :: w_f = 0                    !! work of the uniform force
@@ -40,9 +41,31 @@ module budget
       real(dp), private :: peak = -huge(1.0_dp), candidate = 0
       integer, private :: sought = 1         !! which of the maxima comes next
       real(dp), private :: rotation_time = -1, enstrophy = 0   !! when Q_omega was last added to; -1: never
+   contains
+      procedure :: archive => archive_budget
    end type budget_t
 
 contains
+
+   subroutine archive_budget(self, file)
+      class(budget_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%part('budget')
+      call file%keep('q_alpha', self%q_alpha)
+      call file%keep('q_delta', self%q_delta)
+      call file%keep('w_s', self%w_s)
+      call file%keep('w_f', self%w_f)
+      call file%keep('q_omega', self%q_omega)
+      call file%keep('balance_error', self%balance_error)
+      call file%keep('largest_error', self%largest_error)
+      call file%keep('peak_time', self%peak_time)
+      call file%keep('peak', self%peak)
+      call file%keep('candidate', self%candidate)
+      call file%keep('sought', self%sought)
+      call file%keep('rotation_time', self%rotation_time)
+      call file%keep('enstrophy', self%enstrophy)
+   end subroutine archive_budget
 
    !> Sum of all masses.
    real(dp) function fluid_mass(p) result(mass)

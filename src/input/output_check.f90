@@ -25,6 +25,7 @@ contains
          call check_cadence(draft, 'probes', output%probes)
          call check_cadence(draft, 'errors', output%errors)
          call check_cadence(draft, 'snapshots', output%snapshots)
+         call check_cadence(draft, 'checkpoint', output%checkpoint)
          if (draft%notes%clean('output model') .and. draft%scene%model%diffusion /= 'dynamic') call check_fields(draft)
          do i = 1, size(probes)
             if (draft%notes%clean('probe scene domain')) call check_probe(draft, probes(i), i)
@@ -44,7 +45,7 @@ contains
       type(cadence_t) :: parsed
       character(:), allocatable :: message
 
-      call parsed%parse(phrase, message)
+      call parsed%parse(phrase, message, by_clock=key == 'checkpoint')
       if (message /= '') call draft%mistake('output', 1, key, '&output '//key//': '//message)
    end subroutine check_cadence
 

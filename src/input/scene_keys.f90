@@ -236,6 +236,8 @@ contains
             call keys%add(key_t('fields', 'What snapshots hold.', choices=field_names, list=output%fields, used=output%n_fields))
             call keys%add(key_t('precision', 'Precision of the fields in snapshots.', &
                                 choices=[character(choice_length) :: 'single', 'double']), output%precision)
+            call keys%add(key_t('checkpoint', "How often a checkpoint is written, also by the clock: '10 minutes' (seconds, "// &
+                                "hours), '500 steps'; and at the end. 'never': only where the run is stopped."), output%checkpoint)
          end associate
       case ('probe')
          associate (probe => scene%probes(number))

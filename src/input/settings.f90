@@ -116,6 +116,7 @@ module settings
          [character(name_length) :: 'velocity', 'pressure', '', '', '', '', '', '', '', '', '', '']
       integer :: n_fields = 2              !! entries of `fields` in use
       character(8) :: precision = 'single'
+      character(name_length) :: checkpoint = '10 minutes'
    end type output_settings
 
    !> &probe: a pressure sensor on a wall.

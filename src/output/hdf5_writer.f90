@@ -6,20 +6,21 @@ module hdf5_writer
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use errors, only: exit_files, failure
-   use file_system, only: delete_file, partial_path, publish
+   use file_system, only: delete_file, partial_path, publish, secure_path
    use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dont_atexit_f, h5dwrite_f, &
       h5eset_auto_f, &
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
       h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
       h5t_std_u8le, h5t_str_nullpad_f, h5t_string, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f, &
-      h5f_libver_v110_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, &
+      h5f_libver_v110_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, h5pset_userblock_f, &
       h5pclose_f, h5pcreate_f, h5pset_chunk_f, h5pset_fletcher32_f, &
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
+   use sealed_file, only: seal_bytes, seal_file
    implicit none
    private
 
-   public :: hdf5_writer_t
+   public :: hdf5_writer_t, open_library
 
    logical, save :: library_open = .false.   !! the library's own state; opening it twice leaks its types
 
@@ -29,45 +30,63 @@ module hdf5_writer
       integer(hid_t) :: file = -1
       logical :: failed = .false.
       character(:), allocatable :: path, failed_at
+      character(:), allocatable :: seal   !! words of the seal; not allocated for a file without one
    contains
       procedure :: create
       procedure :: make_group
       procedure :: put_reals
       procedure :: put_vectors
+      procedure :: put_singles
       procedure :: put_integers
       procedure :: put_longs
       procedure :: put_bytes
+      procedure :: put_text
       procedure :: put_label
-      procedure, private :: attach_text, attach_real, attach_integers
-      generic :: attach => attach_text, attach_real, attach_integers
+      procedure, private :: attach_text, attach_real, attach_integers, attach_long
+      generic :: attach => attach_text, attach_real, attach_integers, attach_long
       procedure :: finish
    end type hdf5_writer_t
 
 contains
 
+   !> Opens the HDF5 library, once. It is quiet: its own words on standard error would come before ours.
+   subroutine open_library(status)
+      integer, intent(out) :: status   !! < 0: it cannot be opened
+
+      status = 0
+      if (.not. library_open) then
+         ! Files are closed here; at exit the library would crash on one that a full disk has kept open.
+         call h5dont_atexit_f(status)
+         call h5open_f(status)
+         library_open = status >= 0
+      end if
+      if (library_open) call h5eset_auto_f(0, status)
+   end subroutine open_library
+
    !> Starts a file under its temporary name.
-   subroutine create(self, path)
+   subroutine create(self, path, seal)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: path
+      character(*), intent(in), optional :: seal   !! words: the file gets a checksum, and is on the disk before it has its name
       integer(hid_t) :: access, creation
       integer :: status
 
       self%path = trim(path)
       self%failed = .false.
-      if (.not. library_open) then
-         ! Files are closed here; at exit the library would crash on one that a full disk has kept open.
-         call h5dont_atexit_f(status)
-         call h5open_f(status)
-         call note(self, status, 'the HDF5 library')
-         library_open = .not. self%failed
-      end if
-      call h5eset_auto_f(0, status)   ! its own words on standard error would come before ours
+      call open_library(status)
+      call note(self, status, 'the HDF5 library')
       ! Headers of this form have checksums; HDF5 1.10 (2016) and newer read them.
       call h5pcreate_f(h5p_file_access_f, access, status)
       call note(self, status, 'the file')
       call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
       call note(self, status, 'the file')
       call timeless(self, h5p_file_create_f, creation, 'the file')
+      if (allocated(self%seal)) deallocate (self%seal)
+      if (present(seal)) then
+         self%seal = seal
+         call h5pset_userblock_f(creation, int(seal_bytes, hsize_t), status)
+         call note(self, status, 'the file')
+      end if
       call h5fcreate_f(partial_path(self%path), h5f_acc_trunc_f, self%file, status, creation, access)
       call note(self, status, 'the file')
       call h5pclose_f(creation, status)
@@ -146,6 +165,14 @@ contains
       end if
    end subroutine put_vectors
 
+   subroutine put_singles(self, name, values)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(sp), intent(in), contiguous, target :: values(:)   !! (n)
+
+      call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(values))
+   end subroutine put_singles
+
    subroutine put_integers(self, name, values)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: name
@@ -170,6 +197,26 @@ contains
 
       call put(self, name, h5t_std_u8le, shape(values, hsize_t), c_loc(values))
    end subroutine put_bytes
+
+   !> Writes a text of any length but 0, as an array of one string.
+   subroutine put_text(self, name, value)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: name, value
+      character(kind=c_char), allocatable, target :: bytes(:)
+      integer(hid_t) :: string
+      integer :: i, status
+
+      if (self%failed) return
+      allocate (bytes(len(value)))
+      do i = 1, len(value)
+         bytes(i) = value(i:i)
+      end do
+      call h5tcopy_f(h5t_fortran_s1, string, status)
+      call h5tset_cset_f(string, h5t_cset_utf8_f, status)
+      call h5tset_size_f(string, len(value, kind(0_hsize_t)), status)
+      call put(self, name, string, [1_hsize_t], c_loc(bytes))
+      call h5tclose_f(string, status)
+   end subroutine put_text
 
    !> Attaches a text of fixed length, as VTK's reader wants it; h5py shows it as bytes. Nothing for an empty text.
    subroutine put_label(self, owner, name, value)
@@ -222,6 +269,16 @@ contains
       call put_attribute(self, owner, name, h5t_native_double, [integer(hsize_t) ::], c_loc(copy))
    end subroutine attach_real
 
+   subroutine attach_long(self, owner, name, value)
+      class(hdf5_writer_t), intent(inout) :: self
+      character(*), intent(in) :: owner, name
+      integer(i8), intent(in) :: value
+      integer(i8), target :: copy
+
+      copy = value
+      call put_attribute(self, owner, name, h5t_std_i64le, [integer(hsize_t) ::], c_loc(copy))
+   end subroutine attach_long
+
    subroutine attach_integers(self, owner, name, values)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: owner, name
@@ -248,6 +305,7 @@ contains
          call note(self, status, 'the end of the file')
       end if
       self%file = -1
+      if (allocated(self%seal) .and. .not. self%failed) call close_seal(self)
       if (.not. self%failed) then
          call publish(self%path, problem)
          if (.not. problem%raised()) return
@@ -257,6 +315,20 @@ contains
       end if
       call delete_file(partial_path(self%path), ignored)
    end subroutine finish
+
+   ! The checksum, and all of the file on the disk.
+   subroutine close_seal(self)
+      type(hdf5_writer_t), intent(inout) :: self
+      character(:), allocatable :: reason
+      character(256) :: message
+      integer :: status
+
+      call seal_file(partial_path(self%path), self%seal, status, message)
+      call note(self, -abs(status), 'its checksum')
+      if (self%failed) return
+      call secure_path(partial_path(self%path), reason)
+      call note(self, merge(0, -1, reason == ''), 'its checksum')
+   end subroutine close_seal
 
    !> Writes one dataset without compression, which would take longer than the step.
    subroutine put(self, name, kind, extent, address)

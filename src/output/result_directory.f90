@@ -6,7 +6,7 @@ module result_directory
    implicit none
    private
 
-   public :: result_directory_t
+   public :: result_directory_t, snapshot_name
 
    ! Names of files, shared by those who write them and by those who delete them.
    character(*), parameter, public :: log_name = 'run.log'
@@ -16,17 +16,21 @@ module result_directory
    character(*), parameter, public :: errors_name = 'errors.dat'
    character(*), parameter, public :: summary_name = 'summary.txt'
    character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
+   character(*), parameter, public :: checkpoint_names(2) = ['checkpoint_a.h5', 'checkpoint_b.h5']   !! in turn
+   character(*), parameter, public :: stop_name = 'STOP'   !! a file that the user makes: the run shall stop
 
    character(*), parameter :: digit = '[0-9]'
    character(*), parameter :: any_snapshot = 'snapshot_'//repeat(digit, 6)//'.vtkhdf'
 
    !> Everything dynsph writes and may therefore delete, as shell patterns.
    character(*), parameter :: own_files(*) = [character(64) :: log_name, input_name, energy_name, probes_name, summary_name, &
-      errors_name, series_name, any_snapshot, &
-      input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial']
+      errors_name, series_name, any_snapshot, checkpoint_names, &
+      input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial', &
+      checkpoint_names//'.partial']
 
    !> What shows that a directory holds a result.
-   character(*), parameter :: result_signs(*) = [character(16) :: log_name, energy_name, summary_name, '*.vtkhdf']
+   character(*), parameter :: result_signs(*) = [character(16) :: log_name, energy_name, summary_name, '*.vtkhdf', &
+      checkpoint_names]
 
    !> A result directory, and how much of its path this run has made.
    type :: result_directory_t
@@ -34,6 +38,8 @@ module result_directory
       character(longest_path), allocatable, private :: made(:)   !! directories made by this run, outermost first
    contains
       procedure :: prepare
+      procedure :: reopen
+      procedure :: delete_later_snapshots
       procedure :: file
       procedure :: snapshot_path
       procedure :: discard_if_empty
@@ -66,6 +72,44 @@ contains
       end if
    end subroutine prepare
 
+   !> Takes the directory of a run that shall go on. Changes nothing.
+   subroutine reopen(self, path, problem)
+      class(result_directory_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem   !! exit_files: cannot be used
+      character(:), allocatable :: reason
+
+      self%path = without_slashes(path)
+      if (allocated(self%made)) deallocate (self%made)
+      if (.not. is_directory(self%path)) then
+         call problem%raise(exit_files, "cannot go on with '"//self%path//"': it is not a directory that can be read")
+      else if (.not. is_writable(self%path, reason)) then
+         call problem%raise(exit_files, "cannot go on with '"//self%path//"': "//reason)
+      end if
+   end subroutine reopen
+
+   !> Deletes the snapshots from a number on, and what was being written when a run was broken off.
+   subroutine delete_later_snapshots(self, number, problem)
+      class(result_directory_t), intent(in) :: self
+      integer, intent(in) :: number             !! of the first that goes
+      type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
+      character(longest_path), allocatable :: found(:)
+      character(:), allocatable :: reason
+      integer :: i, k
+
+      do i = 1, size(own_files)
+         if (index(own_files(i), '.partial') == 0 .and. own_files(i) /= any_snapshot) cycle
+         call find_files(self%path, trim(own_files(i)), found)
+         do k = 1, size(found)
+            if (own_files(i) == any_snapshot) then
+               if (llt(found(k), self%snapshot_path(number))) cycle
+            end if
+            call delete_file(trim(found(k)), reason)
+            if (len(reason) > 0) call problem%raise(exit_files, "cannot delete '"//trim(found(k))//"': "//reason)
+         end do
+      end do
+   end subroutine delete_later_snapshots
+
    !> The path of a file in this directory.
    pure function file(self, name) result(path)
       class(result_directory_t), intent(in) :: self
@@ -80,11 +124,19 @@ contains
       class(result_directory_t), intent(in) :: self
       integer, intent(in) :: number   !! 0 to 999999
       character(:), allocatable :: path
+
+      path = self%file(snapshot_name(number))
+   end function snapshot_path
+
+   !> Its name alone.
+   pure function snapshot_name(number) result(name)
+      integer, intent(in) :: number   !! 0 to 999999
+      character(:), allocatable :: name
       character(6) :: digits
 
       write (digits, '(i6.6)') number
-      path = self%file('snapshot_'//digits//'.vtkhdf')
-   end function snapshot_path
+      name = 'snapshot_'//digits//'.vtkhdf'
+   end function snapshot_name
 
    !> Deletes what dynsph writes from the directory, and what this run made of the path.
    subroutine discard(self, problem)

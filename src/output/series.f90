@@ -1,66 +1,119 @@
 !> ParaView's file series: which snapshot file belongs to which time.
 module series
+   use archive, only: archive_t
    use errors, only: failure
    use file_system, only: write_whole_file
+   use growing_text, only: growing_text_t
    use kinds, only: dp
+   use result_directory, only: snapshot_name
+   use timers, only: wall_seconds
    implicit none
    private
 
    public :: series_t
 
-   integer, parameter :: longest_name = 64
+   real(dp), parameter :: write_interval = 1   !! [s] at least; the file is made anew each time
 
-   !> The snapshots of a run so far.
+   !> The snapshots of a run so far, numbered from 0.
    type :: series_t
       private
-      character(longest_name), allocatable :: names(:)
-      real(dp), allocatable :: times(:)
+      integer :: n = 0
+      real(dp), allocatable :: times(:)   !! (n, with room for more)
+      real(dp) :: last_written = -huge(1.0_dp)   !! (not kept: of the clock)
+      logical :: behind = .false.   !! the file lacks the latest (not kept: seen when it is written)
    contains
       procedure :: add
+      procedure :: write => write_series
+      procedure :: finish
+      procedure :: begin_anew
       procedure :: count => count_files
+      procedure :: archive => archive_series
    end type series_t
 
 contains
 
-   !> Adds a snapshot and writes the series anew as a whole file.
-   subroutine add(self, path, name, time, problem)
+   subroutine archive_series(self, file)
+      class(series_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%part('snapshots')
+      call file%keep('number', self%n)
+      if (file%reading) self%times = spread(0.0_dp, 1, self%n)
+      if (self%n > 0) call file%keep('times', self%times(:self%n))
+   end subroutine archive_series
+
+   !> Forgets the snapshots: the run goes on in another directory.
+   subroutine begin_anew(self)
+      class(series_t), intent(inout) :: self
+
+      self%n = 0
+   end subroutine begin_anew
+
+   !> Adds the next snapshot, and writes the file unless that was done just now.
+   subroutine add(self, path, time, problem)
       class(series_t), intent(inout) :: self
       character(*), intent(in) :: path          !! of the series file
-      character(*), intent(in) :: name          !! of the snapshot, relative to the series file
       real(dp), intent(in) :: time
       type(failure), intent(inout) :: problem   !! exit_files
-      character(longest_name) :: padded
+      real(dp), allocatable :: longer(:)
 
-      if (.not. allocated(self%names)) allocate (self%names(0), self%times(0))
-      padded = name
-      self%names = [self%names, padded]
-      self%times = [self%times, time]
-      call write_whole_file(path, as_json(self), problem)
+      if (.not. allocated(self%times)) allocate (self%times(64))
+      if (self%n >= size(self%times)) then
+         allocate (longer(2*self%n + 64))
+         longer(:self%n) = self%times(:self%n)
+         call move_alloc(longer, self%times)
+      end if
+      self%n = self%n + 1
+      self%times(self%n) = time
+      self%behind = .true.
+      if (wall_seconds() - self%last_written >= write_interval) call self%write(path, problem)
    end subroutine add
+
+   !> Writes the series as a whole file.
+   subroutine write_series(self, path, problem)
+      class(series_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem   !! exit_files
+
+      call write_whole_file(path, as_json(self), problem)
+      self%behind = .false.
+      self%last_written = wall_seconds()
+   end subroutine write_series
+
+   !> Writes what the file still lacks.
+   subroutine finish(self, path, problem)
+      class(series_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem   !! exit_files
+
+      if (self%behind) call self%write(path, problem)
+   end subroutine finish
 
    !> Snapshots so far.
    pure integer function count_files(self)
       class(series_t), intent(in) :: self
 
-      count_files = 0
-      if (allocated(self%names)) count_files = size(self%names)
+      count_files = self%n
    end function count_files
 
    function as_json(self) result(text)
       class(series_t), intent(in) :: self
       character(:), allocatable :: text
-      character(*), parameter :: eol = new_line('a')
+      type(growing_text_t) :: lines
       character(32) :: number
       integer :: i
 
-      text = '{'//eol//'  "file-series-version": "1.0",'//eol//'  "files": ['//eol
-      do i = 1, size(self%names)
+      call lines%add_line('{')
+      call lines%add_line('  "file-series-version": "1.0",')
+      call lines%add_line('  "files": [')
+      do i = 1, self%n
          write (number, '(es24.16e3)') self%times(i)
-         text = text//'    {"name": "'//trim(self%names(i))//'", "time": '//trim(adjustl(number))//'}'
-         if (i < size(self%names)) text = text//','
-         text = text//eol
+         call lines%add_line('    {"name": "'//snapshot_name(i - 1)//'", "time": '//trim(adjustl(number))//'}' &
+                             //trim(merge(',', ' ', i < self%n)))
       end do
-      text = text//'  ]'//eol//'}'//eol
+      call lines%add_line('  ]')
+      call lines%add_line('}')
+      text = lines%text()
    end function as_json
 
 end module series

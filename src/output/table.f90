@@ -3,8 +3,9 @@
 !! The last line of the head holds the column names and is no comment, so that
 !! gnuplot (`set datafile columnheaders`, `column("E_K")`) and pandas find them.
 module table
+   use archive, only: archive_t
    use errors, only: exit_files, failure
-   use file_system, only: has_size, no_space
+   use file_system, only: file_bytes, has_size, no_space, secure_unit, shorten_file
    use kinds, only: dp, i8
    use timers, only: wall_seconds
    implicit none
@@ -20,19 +21,46 @@ module table
    !> A table that is being written under its final name.
    type :: table_t
       private
-      integer :: unit = no_unit
+      integer :: unit = no_unit         !! (not kept: of the open file)
       integer(i8) :: row_bytes = 0
-      integer(i8) :: bytes = 0                 !! that the file must have by now
-      real(dp) :: last_flush = 0.0_dp
-      character(:), allocatable :: path
+      integer(i8) :: bytes = 0          !! that the file must have by now
+      real(dp) :: last_flush = 0.0_dp   !! (not kept: of the clock)
+      character(:), allocatable :: path !! (not kept: a directory may be renamed)
    contains
       procedure :: create
+      procedure :: go_on
+      procedure :: was_begun
+      procedure :: begin_anew
       procedure :: row
+      procedure :: secure
       procedure :: close => close_table
       procedure :: is_open
+      procedure :: archive => archive_table
    end type table_t
 
 contains
+
+   subroutine archive_table(self, file)
+      class(table_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%keep('row_bytes', self%row_bytes)
+      call file%keep('bytes', self%bytes)
+   end subroutine archive_table
+
+   !> Whether a part of it was there when it was kept.
+   pure logical function was_begun(self)
+      class(table_t), intent(in) :: self
+
+      was_begun = self%bytes > 0
+   end function was_begun
+
+   !> Forgets what was kept: the table begins in another file.
+   subroutine begin_anew(self)
+      class(table_t), intent(inout) :: self
+
+      self%bytes = 0
+   end subroutine begin_anew
 
    !> Starts a table; an earlier file of that name is replaced.
    subroutine create(self, path, head, names, units, problem)
@@ -84,6 +112,37 @@ contains
 
    end subroutine create
 
+   !> Opens a table that was begun; rows that were written after it was kept are cut off. Changes nothing where that cannot be.
+   subroutine go_on(self, path, columns, only_check, problem)
+      class(table_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      integer, intent(in) :: columns
+      logical, intent(in) :: only_check         !! whether it can be: nothing is opened
+      type(failure), intent(inout) :: problem   !! exit_files: it is not what was kept, or cannot be written
+      character(256) :: message
+      character(:), allocatable :: reason
+      integer(i8) :: there
+      integer :: status
+
+      self%path = trim(path)
+      there = file_bytes(path)
+      if (self%row_bytes /= columns*column_width + 1) then
+         call problem%raise(exit_files, "cannot go on with '"//self%path//"': it has other columns than this version writes")
+      else if (there < self%bytes) then
+         call problem%raise(exit_files, "cannot go on with '"//self%path//"': rows are missing that the checkpoint knows of")
+      end if
+      if (problem%raised() .or. only_check) return
+      call shorten_file(path, self%bytes, reason)
+      if (reason /= '') then
+         call problem%raise(exit_files, "cannot write '"//self%path//"': "//reason)
+         return
+      end if
+      open (newunit=self%unit, file=path, status='old', position='append', action='write', iostat=status, iomsg=message)
+      if (status == 0) return
+      self%unit = no_unit
+      call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
+   end subroutine go_on
+
    !> Adds a row. NaN and infinities are written as such.
    subroutine row(self, values, problem)
       class(table_t), intent(inout) :: self
@@ -103,6 +162,15 @@ contains
       now = wall_seconds()
       if (now - self%last_flush >= flush_interval) call flush_now(self, now, problem)
    end subroutine row
+
+   !> All rows so far are on the disk.
+   subroutine secure(self, problem)
+      class(table_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files: the disk is full
+
+      if (self%unit == no_unit) return
+      if (.not. secure_unit(self%unit, self%bytes)) call problem%raise(exit_files, "cannot write '"//self%path//"': "//no_space)
+   end subroutine secure
 
    !> Ends a table; one that is not open is left alone.
    subroutine close_table(self, problem)

@@ -4,13 +4,14 @@
 !! was sorted, and accelerations may lead it away from there by the slack of its block. Both are looked at in every stage; nothing
 !! that a step computes depends on how long lists are kept but the order in which its sums are taken.
 module search_margins
+   use archive, only: archive_t
    use integrators, only: integrator_t
    use kinds, only: dp
    use neighbours, only: margin_t, neighbours_t
    implicit none
    private
 
-   public :: plan_margins, lists_reach, widen_margins, watch_margins, lists_hold
+   public :: plan_t, planned, lists_reach, widen_margins, watch_margins, lists_hold
 
    integer, parameter :: most_steps = 8           !! that lists are kept for
    real(dp), parameter :: least_slack = 0.02_dp   !! in dx
@@ -20,16 +21,36 @@ module search_margins
    ! So n steps from one list cost 1/(3 n) + safety a (n dt)**2/(2 dx) of them each: least for this times (dx/(a dt**2))**(1/3).
    real(dp), parameter :: cheapest = 0.6_dp
 
+   !> What of the lists before matters for those that are made next; besides it, only the particles do.
+   type :: plan_t
+      real(dp) :: age = 0            !! [s] time of the base state since the particles were sorted last
+      real(dp) :: span = 0           !! [s] time that the lists shall last
+      real(dp) :: slack = 0          !! [m] that every block has at least
+      real(dp) :: slack_time_2 = 0   !! [s2] slack of a block for its acceleration
+   contains
+      procedure :: archive => archive_plan
+   end type plan_t
+
 contains
+
+   subroutine archive_plan(self, file)
+      class(plan_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%part('order')
+      call file%keep('age', self%age)
+      call file%keep('span', self%span)
+      call file%keep('slack', self%slack)
+      call file%keep('slack_time_2', self%slack_time_2)
+   end subroutine archive_plan
 
    !> Slack for lists that are made now, and the time that they shall last.
    !!
    !! The cost of slack is that of its mean over all blocks, so a few fast ones do not set the time for all.
-   subroutine plan_margins(near, dx, dt, span)
-      type(neighbours_t), intent(inout) :: near
+   pure type(plan_t) function planned(near, dx, dt) result(plan)
+      type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: dt           !! expected step
-      real(dp), intent(out) :: span
       real(dp) :: steps, largest, mean
 
       largest = 0
@@ -43,10 +64,11 @@ contains
       if (largest > 0) then
          steps = max(1.0_dp, anint(min(cheapest*(dx/(mean*dt**2))**(1/3.0_dp), real(most_steps, dp))))
       end if
-      span = steps*dt
-      near%slack_time_2 = safety*span**2/2
-      near%slack = max(least_slack*dx, near%slack_time_2*spread*largest)
-   end subroutine plan_margins
+      plan%age = near%age
+      plan%span = steps*dt
+      plan%slack_time_2 = safety*plan%span**2/2
+      plan%slack = max(least_slack*dx, plan%slack_time_2*spread*largest)
+   end function planned
 
    !> Whether the lists hold for the state that a stage leads to.
    pure logical function lists_reach(near, time, changes)

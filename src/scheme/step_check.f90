@@ -6,8 +6,8 @@ module step_check
    use model, only: model_t
    use particles, only: particles_t
    use runge_kutta, only: fastest
+   use step_state, only: step_t
    use text, only: short, to_text
-   use time_step, only: step_t
    implicit none
    private
 

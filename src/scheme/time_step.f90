@@ -6,7 +6,6 @@
 module time_step
    use candidates, only: block_groups
    use dissipation_sums, only: sum_dissipation
-   use equation_of_state, only: specific_pressure
    use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
@@ -20,71 +19,19 @@ module time_step
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
    use runge_kutta, only: block_t, moment_t, stage_state, update_block
-   use search_margins, only: lists_hold, lists_reach, plan_margins, watch_margins, widen_margins
+   use search_margins, only: lists_hold, lists_reach, plan_t, planned, watch_margins, widen_margins
+   use step_state, only: step_t, take_extremes
    use strips, only: group_slots
    use timers, only: timers_t
    implicit none
    private
 
-   public :: step_t, refresh, advance, start_extremes
+   public :: refresh, go_on, sorts_next, plan_next, advance
 
    real(dp), parameter :: grown = 1.01_dp      !! times its limit: a step that the margins of the limits still cover
    integer, parameter, public :: phase_sort = 1, phase_gradients = 2, phase_diffusion = 3, phase_stages = 4
 
-   !> What steps leave behind: time, counts, sums and extremes.
-   type :: step_t
-      real(dp) :: time = 0
-      real(dp) :: dt = 0                    !! last step
-      integer :: step = 0                   !! steps done
-      integer(i8) :: crossings = 0          !! particles put back behind a wall
-      integer(i8) :: singular = 0           !! particle-steps without a density gradient
-      integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
-      integer(i8) :: sorted = 0             !! times that particles were sorted and neighbours listed
-      integer(i8) :: relisted = 0           !! times that neighbours were listed anew within a step
-      integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
-      real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
-      real(dp) :: work_delta = 0            !! energy given by density diffusion
-      real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
-      real(dp) :: work_force = 0            !! energy given by the uniform force
-      real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
-      real(dp) :: speed = 0                 !! max |u| of the base state
-      real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
-      real(dp) :: largest_mach = 0          !! over all steps
-      real(dp) :: largest_variation = 0     !! over all steps
-      integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none
-      logical :: scattered = .false.        !! some particle is too far away for the neighbour search
-   end type step_t
-
 contains
-
-   !> Extremes of the state that the run starts with; steps take those of the states they end with.
-   pure subroutine start_extremes(model, p, run)
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p         !! base state
-      type(step_t), intent(inout) :: run
-      real(dp) :: speed_2, pressure, largest_s   ! pressure: p/rho
-
-      associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
-         speed_2 = maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own)
-         pressure = maxval(specific_pressure(model%c0, model%rho0, s), mask=own)
-         largest_s = maxval(abs(s), mask=own)
-      end associate
-      call take_extremes(model, speed_2, pressure, largest_s, run)
-   end subroutine start_extremes
-
-   pure subroutine take_extremes(model, speed_2, pressure, largest_s, run)
-      type(model_t), intent(in) :: model
-      real(dp), intent(in) :: speed_2     !! largest |u|**2
-      real(dp), intent(in) :: pressure    !! largest p/rho
-      real(dp), intent(in) :: largest_s   !! largest |rho - rho0|
-      type(step_t), intent(inout) :: run
-
-      run%speed = sqrt(speed_2)
-      run%mach = sqrt(max(speed_2, pressure))/model%c0
-      run%variation = largest_s/model%rho0
-      run%largest_mach = max(run%largest_mach, run%mach)
-      run%largest_variation = max(run%largest_variation, run%variation)
-   end subroutine take_extremes
 
    !> Makes `next` the state at `time`, `base`, with its images and neighbours; sorts the particles if need be.
    subroutine refresh(model, p, near, run, timers)
@@ -93,29 +40,65 @@ contains
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       type(timers_t), intent(inout) :: timers
-      real(dp) :: expected, span
 
       call timers%start(phase_sort)
-      if (run%step > 0 .and. lists_hold(near, run%dt)) then
+      if (sorts_next(near, run)) then
+         call find_neighbours(model, p, near, run, plan_next(model, near, run))
+      else
          call keep_order(near, p, model%box%after(run%time), run%dt)
          if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
-      else
-         expected = run%dt
-         if (run%step == 0) expected = model%longest_step()
-         call plan_margins(near, model%dx, expected, span)
-         call find_neighbours(model, p, near, run, span)
       end if
       call timers%stop(phase_sort)
    end subroutine refresh
 
-   subroutine find_neighbours(model, p, near, run, span)
+   !> The same for a state in `next` that was kept when the particles were about to be sorted, in any order of them.
+   subroutine go_on(model, p, near, run, plan, timers)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
-      real(dp), intent(in) :: span   !! time that lists shall last
+      type(plan_t), intent(in) :: plan   !! `plan_next` of then
+      type(timers_t), intent(inout) :: timers
 
-      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, span, run%scattered)
+      call timers%start(phase_sort)
+      call find_neighbours(model, p, near, run, plan)
+      call timers%stop(phase_sort)
+   end subroutine go_on
+
+   !> Whether the next `refresh` sorts the particles: then nothing but `next`, `step_t`, the plan and `particles_t%sorted_u`,
+   !! `sorted_v` matters for what comes.
+   pure logical function sorts_next(near, run)
+      type(neighbours_t), intent(in) :: near
+      type(step_t), intent(in) :: run
+
+      sorts_next = run%step == 0
+      if (.not. sorts_next) sorts_next = .not. lists_hold(near, run%dt)
+   end function sorts_next
+
+   !> What it sorts them for.
+   pure type(plan_t) function plan_next(model, near, run) result(plan)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      type(step_t), intent(in) :: run
+
+      if (run%step == 0) then
+         plan = planned(near, model%dx, model%longest_step())
+      else
+         plan = planned(near, model%dx, run%dt)
+      end if
+   end function plan_next
+
+   subroutine find_neighbours(model, p, near, run, plan)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      type(plan_t), intent(in) :: plan
+
+      near%age = plan%age
+      near%slack = plan%slack
+      near%slack_time_2 = plan%slack_time_2
+      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, plan%span, run%scattered)
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
@@ -205,7 +188,7 @@ contains
 
       call timers%start(phase_sort)
       p%next = p%base
-      call find_neighbours(model, p, near, run, run%dt)
+      call find_neighbours(model, p, near, run, plan_t(near%age, run%dt, near%slack, near%slack_time_2))
       call timers%stop(phase_sort)
    end subroutine sort_again
 

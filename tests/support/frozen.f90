@@ -6,7 +6,8 @@ module frozen
    use neighbours, only: neighbours_t
    use particles, only: particles_t
    use patches, only: points_of, points_t, scatter
-   use time_step, only: advance, refresh, step_t
+   use step_state, only: step_t
+   use time_step, only: advance, refresh
    use timers, only: timers_t
    implicit none
    private

@@ -1,0 +1,67 @@
+!> Why a run shall stop before its end: a signal, a file STOP in its directory, or max_wall_time. It can go on from a checkpoint.
+module stopping
+   use errors, only: failure
+   use file_system, only: delete_file, path_exists
+   use kinds, only: dp
+   use result_directory, only: result_directory_t, stop_name
+   use stop_signals, only: stop_signals_t
+   use timers, only: wall_seconds
+   implicit none
+   private
+
+   public :: stopping_t
+
+   real(dp), parameter :: look_interval = 1   !! [s] between looks at the directory
+
+   !> What was asked for.
+   type :: stopping_t
+      character(:), allocatable :: reason   !! '' while the run shall go on
+      type(stop_signals_t), private :: signals
+      real(dp), private :: started = 0, last_look = 0   ! [s] of the clock
+      real(dp), private :: longest = 0                  ! [s] max_wall_time; 0: endless
+   contains
+      procedure :: begin
+      procedure :: look
+      procedure :: finish
+   end type stopping_t
+
+contains
+
+   !> From here on signals wait until they are looked for.
+   subroutine begin(self, longest)
+      class(stopping_t), intent(inout) :: self
+      real(dp), intent(in) :: longest   !! wall time from now on [s]; 0: endless
+
+      self%reason = ''
+      self%longest = longest
+      self%started = wall_seconds()
+      self%last_look = -huge(1.0_dp)
+      call self%signals%hold()
+   end subroutine begin
+
+   !> Looks whether the run shall stop; a reason that was found stays.
+   subroutine look(self, directory)
+      class(stopping_t), intent(inout) :: self
+      type(result_directory_t), intent(in) :: directory
+      character(:), allocatable :: ignored
+      real(dp) :: now
+
+      if (self%reason /= '') return
+      now = wall_seconds()
+      self%reason = self%signals%arrived()
+      if (self%reason == '' .and. self%longest > 0 .and. now - self%started > self%longest) self%reason = 'max_wall_time'
+      if (self%reason /= '' .or. now - self%last_look < look_interval) return
+      self%last_look = now
+      if (.not. path_exists(directory%file(stop_name))) return
+      self%reason = 'file '//stop_name
+      call delete_file(directory%file(stop_name), ignored)   ! it has been seen; the next run shall not stop for it
+   end subroutine look
+
+   !> Signals act as they did before.
+   subroutine finish(self)
+      class(stopping_t), intent(inout) :: self
+
+      call self%signals%release()
+   end subroutine finish
+
+end module stopping

@@ -1,0 +1,96 @@
+!> What the steps of a run leave behind, besides the particles.
+module step_state
+   use archive, only: archive_t
+   use equation_of_state, only: specific_pressure
+   use kinds, only: dp, i8
+   use model, only: model_t
+   use particles, only: particles_t
+   implicit none
+   private
+
+   public :: step_t, start_extremes, take_extremes
+
+   !> What steps leave behind: time, counts, sums and extremes.
+   type :: step_t
+      real(dp) :: time = 0
+      real(dp) :: dt = 0                    !! last step
+      integer :: step = 0                   !! steps done
+      integer(i8) :: crossings = 0          !! particles put back behind a wall
+      integer(i8) :: singular = 0           !! particle-steps without a density gradient
+      integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
+      integer(i8) :: sorted = 0             !! times that particles were sorted and neighbours listed
+      integer(i8) :: relisted = 0           !! times that neighbours were listed anew within a step
+      integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
+      real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
+      real(dp) :: work_delta = 0            !! energy given by density diffusion
+      real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
+      real(dp) :: work_force = 0            !! energy given by the uniform force
+      real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
+      real(dp) :: speed = 0                 !! max |u| of the base state
+      real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
+      real(dp) :: largest_mach = 0          !! over all steps
+      real(dp) :: largest_variation = 0     !! over all steps
+      integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none (not kept: then all ends)
+      logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
+   contains
+      procedure :: archive => archive_step
+   end type step_t
+
+contains
+
+   subroutine archive_step(self, file)
+      class(step_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+
+      call file%part('step')
+      call file%keep('time', self%time)
+      call file%keep('dt', self%dt)
+      call file%keep('step', self%step)
+      call file%keep('crossings', self%crossings)
+      call file%keep('singular', self%singular)
+      call file%keep('limited', self%limited)
+      call file%keep('sorted', self%sorted)
+      call file%keep('relisted', self%relisted)
+      call file%keep('repeated', self%repeated)
+      call file%keep('work_alpha', self%work_alpha)
+      call file%keep('work_delta', self%work_delta)
+      call file%keep('work_walls', self%work_walls)
+      call file%keep('work_force', self%work_force)
+      call file%keep('mach', self%mach)
+      call file%keep('speed', self%speed)
+      call file%keep('variation', self%variation)
+      call file%keep('largest_mach', self%largest_mach)
+      call file%keep('largest_variation', self%largest_variation)
+   end subroutine archive_step
+
+   !> Extremes of the state that the run starts with; steps take those of the states they end with.
+   pure subroutine start_extremes(model, p, run)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p         !! base state
+      type(step_t), intent(inout) :: run
+      real(dp) :: speed_2, pressure, largest_s   ! pressure: p/rho
+
+      associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
+         speed_2 = maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own)
+         pressure = maxval(specific_pressure(model%c0, model%rho0, s), mask=own)
+         largest_s = maxval(abs(s), mask=own)
+      end associate
+      call take_extremes(model, speed_2, pressure, largest_s, run)
+   end subroutine start_extremes
+
+   !> Extremes of a state, and what they make of the largest so far.
+   pure subroutine take_extremes(model, speed_2, pressure, largest_s, run)
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: speed_2     !! largest |u|**2
+      real(dp), intent(in) :: pressure    !! largest p/rho
+      real(dp), intent(in) :: largest_s   !! largest |rho - rho0|
+      type(step_t), intent(inout) :: run
+
+      run%speed = sqrt(speed_2)
+      run%mach = sqrt(max(speed_2, pressure))/model%c0
+      run%variation = largest_s/model%rho0
+      run%largest_mach = max(run%largest_mach, run%mach)
+      run%largest_variation = max(run%largest_variation, run%variation)
+   end subroutine take_extremes
+
+end module step_state
