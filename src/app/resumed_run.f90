@@ -84,15 +84,17 @@ contains
       type(change_t), intent(in) :: changes(:)
       logical, intent(in) :: fork
       type(failure), intent(inout) :: problem
+      logical :: fits
       integer :: k
 
       do k = 1, size(changes)
          if (fork .and. .not. changes(k)%may_fork()) then
             call problem%raise(exit_input, changes(k)%words()//': the particles of the checkpoint are of the old one; ' &
                                //'begin a run of its own')
-         else if (.not. (fork .or. changes(k)%may_go_on())) then
-            call problem%raise(exit_input, changes(k)%words()//': one result would be of two scenes; with --fork DIR2 it goes on ' &
-                               //'in another directory')
+         else if (.not. fork) then
+            fits = changes(k)%may_go_on()
+            if (.not. fits) call problem%raise(exit_input, changes(k)%words()//': one result would be of two scenes; with ' &
+                                               //'--fork DIR2 it goes on in another directory')
          end if
       end do
    end subroutine check_changes
@@ -133,12 +135,13 @@ contains
       type(command_line_t) :: anew
       type(settings_t) :: scene
       character(:), allocatable :: content, warnings(:)
-      logical :: known
+      logical :: begun, ended
 
-      known = remarks == '' .and. options%fork == '' .and. path_exists(directory%file(input_name)) &
-              .and. .not. path_exists(directory%file(summary_name))
+      begun = path_exists(directory%file(input_name))
+      ended = path_exists(directory%file(summary_name))
       content = ''
-      if (known) call read_whole_file(directory%file(input_name), content, problem)
+      if (begun .and. .not. ended .and. options%fork == '' .and. remarks == '') &
+         call read_whole_file(directory%file(input_name), content, problem)
       if (problem%raised()) return
       ! Whether it would have made checkpoints: a long run that made none must not be lost.
       if (index(content, 'checkpoint = ') == 0 .or. index(content, "checkpoint = 'never'") > 0) then
