@@ -12,7 +12,8 @@ module file_system
    private
 
    public :: delete_file, file_bytes, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, &
-      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
+      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, seek_end, &
+      shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
    character(*), parameter, public :: no_space = 'no space left on the disk'
@@ -367,6 +368,16 @@ contains
       has_size = status /= 0
       if (has_size) has_size = c_write(descriptor, c_null_char, 0_c_size_t) == 0
    end function has_size
+
+   !> The place of a file that was opened to be appended to: gfortran goes there with the first row only, and until then the file
+   !! would seem to have lost what is in it.
+   subroutine seek_end(unit)
+      integer, intent(in) :: unit
+      integer(c_int), parameter :: from_end = 2   ! SEEK_END
+      integer(i8) :: ignored
+
+      ignored = c_lseek(c_descriptor(int(unit, c_int)), 0_c_long, from_end)
+   end subroutine seek_end
 
    !> As `has_size`, and what was written is on the disk.
    logical function secure_unit(unit, bytes)
