@@ -11,7 +11,7 @@ module stopping
 
    public :: stopping_t
 
-   real(dp), parameter :: look_interval = 1   !! [s] between looks at the directory
+   real(dp), parameter :: look_interval = 0.2_dp   !! [s] between looks at the directory
 
    !> What was asked for.
    type :: stopping_t

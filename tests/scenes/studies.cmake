@@ -26,10 +26,14 @@ quick_study(leaving_out_is_told leaving_out 120
    ". oscillating_drop . 7854 . ... .  .  . x .  .  .  .  . x .  . x .  .  . x . x .  .\n;. minimal . 216 .;. dynamic . 272 .*. minimal . 56 .;. all_dynamic . 320 . 320 ."
    "nan;leaving_out:")
 
+# Runs that are cut, stopped and killed go on with the same bits.
+quick_study(runs_go_on reliability 400 "21 of 21 cases end with the same bits" "not the same;exit code")
+set_tests_properties(runs_go_on PROPERTIES PROCESSORS 2)
+
 # All studies at once, in their quick forms: those above are not repeated, and each leaves its tables under its head.
 add_test(NAME all_studies_leave_tables COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${CMAKE_COMMAND};-E;env;DYNSPH_BUILD=${PROJECT_BINARY_DIR};DYNSPH_RESULTS=${here}/studies;JOBS=1;OMP_NUM_THREADS=1;GOMP_SPINCOUNT=1000;${DYNSPH_BASH};${PROJECT_SOURCE_DIR}/utils/studies/all;quick"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=tables and pictures: ${here}/studies/tables_quick" "-DREJECT=failed;nan"
    "-DCREATED=studies/tables_quick" -P ${run_and_expect})
 set_tests_properties(all_studies_leave_tables PROPERTIES TIMEOUT 900
-   DEPENDS "flows_bear_the_margins;extreme_input_ends_well;error_vs_time_runs;leaving_out_is_told")
+   DEPENDS "flows_bear_the_margins;extreme_input_ends_well;error_vs_time_runs;leaving_out_is_told;runs_go_on")
