@@ -183,7 +183,9 @@ contains
       p = variant%p
       run = variant%run
       call refresh(variant%model, p, near, run, timers)
-      call variant%recorder%start(variant%scene, '', variant%model, p, variant%directory, problem)
+      call variant%directory%clear(problem)
+      call variant%recorder%start(variant%scene, '', variant%model, p)
+      call variant%recorder%open(variant%scene, variant%directory, problem)
    end subroutine open_tables
 
    subroutine measure()
@@ -196,7 +198,8 @@ contains
          end do
       end do
       do k = 2, size(variants)
-         call variants(k)%recorder%finish(problem)
+         call variants(k)%recorder%finish(variants(k)%directory, problem)
+         call variants(k)%directory%release()
       end do
    end subroutine measure
 

@@ -79,7 +79,7 @@ contains
          call run_into_directory(options, content, scene, warnings, problem)
          return
       end if
-      call screen%open('', options%quiet, problem)
+      call screen%open(options%quiet)
       ! Each is a kind of its own, so that all are shown.
       do k = 1, size(warnings)
          call screen%warn('input '//to_text(k), trim(warnings(k)))

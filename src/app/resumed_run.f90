@@ -5,9 +5,9 @@ module resumed_run
    use checkpoints, only: latest_checkpoint
    use command_line, only: command_line_t
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: path_exists, read_whole_file, write_whole_file
+   use file_system, only: path_exists, read_whole_file
    use key_writer, only: complete_input
-   use result_directory, only: input_name, log_name, result_directory_t, summary_name
+   use result_directory, only: input_name, result_directory_t, summary_name
    use run_log, only: log_t
    use scene_input, only: read_settings_text
    use scene_run, only: run_into_directory
@@ -32,9 +32,8 @@ contains
       type(settings_t) :: scene
       type(log_t) :: log
       type(change_t), allocatable :: changes(:)
-      character(:), allocatable :: input_text, remarks, warnings(:)
+      character(:), allocatable :: input_text, remarks
       logical :: began
-      integer :: k
 
       call source%reopen(options%resume, problem)
       if (problem%raised()) return
@@ -43,6 +42,40 @@ contains
          call begin_again(options, source, remarks, problem)
          return
       end if
+      call read_changed(options, beginning, scene, changes, log, problem)
+      directory = source
+      beginning%forked = options%fork /= ''
+      if (beginning%forked .and. .not. problem%raised()) then
+         ! The source is read only until the particles are there.
+         call directory%prepare(options%fork, options%overwrite, problem)
+         beginning%turn = 0
+         beginning%origin = fork_text(source, beginning)
+      end if
+      began = .false.
+      if (.not. problem%raised()) then
+         input_text = beginning%input
+         if (beginning%origin /= '') input_text = '! '//beginning%origin//new_line('a')//input_text
+         call say_where_it_goes_on(log, beginning, remarks, changes)
+         call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
+         call log%close()
+         if (beginning%forked .and. .not. began) call directory%discard(problem)
+         if (beginning%forked) call directory%release()
+      end if
+      call source%release()
+   end subroutine resume_run
+
+   ! The scene of a checkpoint with the changes that are asked for.
+   subroutine read_changed(options, beginning, scene, changes, log, problem)
+      type(command_line_t), intent(in) :: options
+      type(beginning_t), intent(inout) :: beginning
+      type(settings_t), intent(out) :: scene
+      type(change_t), allocatable, intent(out) :: changes(:)
+      type(log_t), intent(inout) :: log
+      type(failure), intent(inout) :: problem   !! exit_input
+      character(:), allocatable :: warnings(:)
+      integer :: k
+
+      allocate (changes(0))
       associate (file => beginning%file)
          call read_settings_text(file%input, 'input of '//file%path, options%overrides, solutions_t(), scene, warnings, problem)
          if (problem%raised()) return
@@ -53,31 +86,11 @@ contains
             //', and the run shall end at t = '//short(scene%time%end_time)//': give a later end with --set time.end_time=T')
          beginning%origin = file%origin
       end associate
-      if (problem%raised()) return
-      beginning%forked = options%fork /= ''
-      directory = source
-      if (beginning%forked) then
-         call directory%prepare(options%fork, options%overwrite, problem)
-         if (problem%raised()) return
-         beginning%turn = 0
-         beginning%origin = fork_text(source, beginning)
-      end if
-      input_text = beginning%input
-      if (beginning%origin /= '') input_text = '! '//beginning%origin//new_line('a')//input_text
-      call log%open(directory%file(log_name), options%quiet, problem, goes_on=.not. beginning%forked)
-      if (.not. problem%raised()) then
-         call say_where_it_goes_on(log, beginning, remarks, changes)
-         do k = 1, size(warnings)
-            call log%warn('input '//to_text(k), trim(warnings(k)))
-         end do
-         if (beginning%forked) call write_whole_file(directory%file(input_name), input_text, problem)
-      end if
-      began = .false.
-      if (.not. problem%raised()) &
-         call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
-      call log%close()
-      if (beginning%forked .and. .not. began) call directory%discard(problem)
-   end subroutine resume_run
+      call log%open(options%quiet)
+      do k = 1, size(warnings)
+         call log%warn('input '//to_text(k), trim(warnings(k)))
+      end do
+   end subroutine read_changed
 
    ! Refuses what cannot be changed, all of it at once.
    subroutine check_changes(changes, fork, problem)
@@ -129,7 +142,7 @@ contains
    ! A run that was broken off before its first checkpoint has lost nothing but the minutes until then.
    subroutine begin_again(options, directory, remarks, problem)
       type(command_line_t), intent(in) :: options
-      type(result_directory_t), intent(in) :: directory
+      type(result_directory_t), intent(inout) :: directory   !! on return given free
       character(*), intent(in) :: remarks
       type(failure), intent(inout) :: problem
       type(command_line_t) :: anew
@@ -142,6 +155,7 @@ contains
       content = ''
       if (begun .and. .not. ended .and. options%fork == '' .and. remarks == '') &
          call read_whole_file(directory%file(input_name), content, problem)
+      call directory%release()
       if (problem%raised()) return
       ! Whether it would have made checkpoints: a long run that made none must not be lost.
       if (index(content, 'checkpoint = ') == 0 .or. index(content, "checkpoint = 'never'") > 0) then

@@ -2,11 +2,10 @@
 module scene_run
    use command_line, only: command_line_t
    use errors, only: failure
-   use file_system, only: write_whole_file
    use key_writer, only: complete_input
    use linear_stability, only: margins_t
    use preliminary, only: find_reference_speed
-   use result_directory, only: input_name, log_name, result_directory_t
+   use result_directory, only: result_directory_t
    use run_log, only: log_t
    use scene_input, only: read_settings_text
    use scene_setup, only: set_up_model
@@ -38,11 +37,7 @@ contains
 
       call directory%prepare(output_directory(options), options%overwrite, problem)
       if (problem%raised()) return
-      call log%open(directory%file(log_name), options%quiet, problem)
-      if (problem%raised()) then
-         call directory%discard_if_empty()
-         return
-      end if
+      call log%open(options%quiet)
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
@@ -50,21 +45,17 @@ contains
       if (present(margins)) call log%line('margins of the time step: sound '//short(margins%sound)//', diffusion ' &
          //short(margins%diffusion)//', viscous '//short(margins%viscous)//' of a lattice''s limits; warnings about cfl mean ' &
          //'those of dynsph')
+      began = .false.
       if (.not. problem%raised()) then
          beginning%input = complete_input(solutions_t(), scene)
          beginning%origin = ''
-         call write_whole_file(directory%file(input_name), beginning%input, problem)
+         input_text = beginning%input
+         if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
+         call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
       end if
-      if (problem%raised()) then
-         call log%close()
-         call directory%discard(problem)
-         return
-      end if
-      input_text = beginning%input
-      if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
-      call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
       call log%close()
-      ! A run that could not start leaves nothing behind.
+      ! A run that could not start leaves nothing behind, and what was there before.
+      if (began) call directory%release()
       if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory
 

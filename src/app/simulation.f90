@@ -10,7 +10,7 @@ module simulation
    use model, only: model_t
    use progress, only: progress_t
    use report, only: closing_table, start_box, write_summary_file
-   use result_directory, only: input_name, result_directory_t, series_name, summary_name
+   use result_directory, only: input_name, log_name, result_directory_t, series_name, summary_name
    use room, only: check_room
    use run_log, only: log_t
    use run_state, only: run_state_t
@@ -50,7 +50,7 @@ contains
       type(model_t), intent(in) :: model       !! of the scene
       character(*), intent(in) :: input_text   !! complete input, for the snapshots
       type(beginning_t), intent(inout) :: beginning
-      type(result_directory_t), intent(in) :: directory
+      type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
       logical, intent(out) :: began             !! there are results to keep
       type(failure), intent(inout) :: problem   !! exit_numerics, exit_files; exit_stopped: it can go on
@@ -72,8 +72,8 @@ contains
       started = wall_seconds()
       call timers%initialise(phases)
       call set_up(scene, model, input_text, beginning, state, timers, problem)
-      if (.not. problem%raised()) call state%recorder%open(scene, directory, problem)
-      if (.not. problem%raised() .and. beginning%turn > 0) call take_over(state, input_text, directory, problem)
+      if (problem%raised()) return
+      call open_files(scene, input_text, beginning%turn > 0, state, directory, log, problem)
       if (problem%raised()) then
          call state%recorder%finish(directory, closing)
          return
@@ -132,16 +132,23 @@ contains
          'the fluid is more than 4 million strips of width h long: move the bodies closer in x')
    end subroutine set_up
 
-   ! Deletes what was written behind the checkpoint: it comes again.
-   subroutine take_over(state, input_text, directory, problem)
-      type(run_state_t), intent(inout) :: state
+   ! From here on files change: an earlier result is deleted; where the run goes on, what was written behind the checkpoint, which
+   ! comes again.
+   subroutine open_files(scene, input_text, goes_on, state, directory, log, problem)
+      type(settings_t), intent(in) :: scene
       character(*), intent(in) :: input_text
-      type(result_directory_t), intent(in) :: directory
+      logical, intent(in) :: goes_on
+      type(run_state_t), intent(inout) :: state
+      type(result_directory_t), intent(inout) :: directory
+      type(log_t), intent(inout) :: log
       type(failure), intent(inout) :: problem   !! exit_files
       character(:), allocatable :: ignored
 
-      call write_whole_file(directory%file(input_name), input_text, problem)
-      if (problem%raised()) return
+      if (.not. goes_on) call directory%clear(problem)
+      if (.not. problem%raised()) call state%recorder%open(scene, directory, problem)
+      if (.not. problem%raised()) call log%open_file(directory%file(log_name), goes_on, problem)
+      if (.not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
+      if (problem%raised() .or. .not. goes_on) return
       call delete_file(directory%file(summary_name), ignored)
       call directory%delete_later_snapshots(state%recorder%series%count(), problem)
       if (problem%raised()) return
@@ -150,7 +157,7 @@ contains
       else if (path_exists(directory%file(series_name))) then
          call delete_file(directory%file(series_name), ignored)
       end if
-   end subroutine take_over
+   end subroutine open_files
 
    subroutine main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
       type(settings_t), intent(in) :: scene
@@ -158,7 +165,7 @@ contains
       type(run_state_t), intent(inout) :: state
       type(checkpoints_t), intent(inout) :: saving
       type(stopping_t), intent(inout) :: stop
-      type(result_directory_t), intent(in) :: directory
+      type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
       type(timers_t), intent(inout) :: timers
       character(:), allocatable, intent(out) :: status

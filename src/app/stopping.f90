@@ -42,7 +42,7 @@ contains
    !> Looks whether the run shall stop; a reason that was found stays.
    subroutine look(self, directory)
       class(stopping_t), intent(inout) :: self
-      type(result_directory_t), intent(in) :: directory
+      type(result_directory_t), intent(inout) :: directory
       character(:), allocatable :: ignored
       real(dp) :: now
 
@@ -52,6 +52,7 @@ contains
       if (self%reason == '' .and. self%longest > 0 .and. now - self%started > self%longest) self%reason = 'max_wall_time'
       if (self%reason /= '' .or. now - self%last_look < look_interval) return
       self%last_look = now
+      call directory%keep_alive()
       if (.not. path_exists(directory%file(stop_name))) return
       self%reason = 'file '//stop_name
       call delete_file(directory%file(stop_name), ignored)   ! it has been seen; the next run shall not stop for it

@@ -5,6 +5,7 @@ module run_log
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: exit_files, failure
+   use growing_text, only: growing_text_t
    implicit none
    private
 
@@ -32,8 +33,10 @@ module run_log
       logical :: unicode = .false.           !! the user's locale is UTF-8
       logical :: transient_shown = .false.   !! the cursor stands in a transient line
       type(tally_t), allocatable :: tallies(:)
+      type(growing_text_t) :: early          !! what the file will begin with
    contains
       procedure :: open => open_log
+      procedure :: open_file
       procedure :: line
       procedure :: note
       procedure :: keep
@@ -55,28 +58,36 @@ module run_log
 
 contains
 
-   !> Starts a log file; an earlier one of that name is replaced, or goes on.
-   subroutine open_log(self, path, quiet, problem, goes_on)
+   !> Starts a log without a file; what comes before the file does is kept for it.
+   subroutine open_log(self, quiet)
       class(log_t), intent(inout) :: self
-      character(*), intent(in) :: path          !! '' for a log without a file
       logical, intent(in) :: quiet              !! nothing on standard output; warnings go to standard error
-      type(failure), intent(inout) :: problem   !! exit_files: the file cannot be written
-      logical, intent(in), optional :: goes_on
-      character(256) :: message
-      character(7) :: before
-      integer :: status
 
       self%quiet = quiet
       self%terminal = c_isatty(1_c_int) == 1
       self%unicode = locale_is_utf8()
-      if (path == '') return
-      before = 'replace'
-      if (present(goes_on)) before = merge('unknown', 'replace', goes_on)
-      open (newunit=self%unit, file=path, status=before, position='append', action='write', iostat=status, iomsg=message)
-      if (status == 0) return
+   end subroutine open_log
+
+   !> Writes to a file from here on, and what came before; an earlier file of that name is replaced, or goes on.
+   subroutine open_file(self, path, goes_on, problem)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      logical, intent(in) :: goes_on
+      type(failure), intent(inout) :: problem   !! exit_files: the file cannot be written
+      character(256) :: message
+      character(:), allocatable :: before
+      integer :: status
+
+      before = self%early%text()
+      open (newunit=self%unit, file=path, status=merge('unknown', 'replace', goes_on), position='append', action='write', &
+         iostat=status, iomsg=message)
+      if (status == 0) then
+         if (len(before) > 0) call to_file(self, before(:len(before) - 1))
+         return
+      end if
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))
-   end subroutine open_log
+   end subroutine open_file
 
    !> Writes one line, or several separated by new_line, to the screen and the file.
    subroutine line(self, text)
@@ -225,11 +236,14 @@ contains
 
    !> A log that cannot be written on (a full disk) does not end the run: its results will.
    subroutine to_file(self, text)
-      class(log_t), intent(in) :: self
+      class(log_t), intent(inout) :: self
       character(*), intent(in) :: text
       integer :: ignored
 
-      if (self%unit == no_unit) return
+      if (self%unit == no_unit) then
+         call self%early%add_line(text)
+         return
+      end if
       write (self%unit, '(a)', iostat=ignored) text
       flush (self%unit, iostat=ignored)
    end subroutine to_file

@@ -1,8 +1,9 @@
 !> The directory a run writes to: made if need be, never mixed with another run's results.
 module result_directory
+   use directory_lock, only: directory_lock_t
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: delete_file, find_files, is_directory, is_writable, longest_path, make_directory, path_exists, &
-      remove_directory
+   use file_system, only: delete_file, file_bytes, find_files, is_directory, is_writable, longest_path, make_directory, &
+      path_exists, remove_directory
    implicit none
    private
 
@@ -17,6 +18,7 @@ module result_directory
    character(*), parameter, public :: summary_name = 'summary.txt'
    character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
    character(*), parameter, public :: checkpoint_names(2) = ['checkpoint_a.h5', 'checkpoint_b.h5']   !! in turn
+   character(*), parameter, public :: lock_name = 'run.lock'
    character(*), parameter, public :: stop_name = 'STOP'   !! a file that the user makes: the run shall stop
 
    character(*), parameter :: digit = '[0-9]'
@@ -32,12 +34,28 @@ module result_directory
    character(*), parameter :: result_signs(*) = [character(16) :: log_name, energy_name, summary_name, '*.vtkhdf', &
       checkpoint_names]
 
+   !> How files begin that a run has written; one that begins otherwise is somebody else's.
+   type :: beginning_t
+      character(24) :: ending    !! of the name
+      character(24) :: letters
+   end type beginning_t
+
+   type(beginning_t), parameter :: beginnings(*) = [beginning_t('.dat', '# title: '), &
+      beginning_t(summary_name, 'status = '), beginning_t('.series', '{'), beginning_t('.vtkhdf', char(137)//'HDF'), &
+      beginning_t('.h5', 'dynsph sealed file'), beginning_t(input_name, '! The complete input'), &
+      beginning_t(input_name, '! Forked from')]
+
    !> A result directory, and how much of its path this run has made.
    type :: result_directory_t
       character(:), allocatable :: path
       character(longest_path), allocatable, private :: made(:)   !! directories made by this run, outermost first
+      logical, private :: cleared = .false.                      !! what is in it is this run's
+      type(directory_lock_t), private :: lock
    contains
       procedure :: prepare
+      procedure :: clear
+      procedure :: release
+      procedure :: keep_alive
       procedure :: reopen
       procedure :: delete_later_snapshots
       procedure :: file
@@ -48,15 +66,17 @@ module result_directory
 
 contains
 
-   !> Makes the directory, or takes an existing one; changes nothing when it cannot be used.
+   !> Makes the directory, or takes an existing one, for this process alone; changes nothing when it cannot be used, and deletes
+   !! nothing.
    subroutine prepare(self, path, overwrite, problem)
       class(result_directory_t), intent(inout) :: self
       character(*), intent(in) :: path
-      logical, intent(in) :: overwrite          !! delete an earlier result's files
-      type(failure), intent(inout) :: problem   !! exit_input: holds a result; exit_files: cannot be used
+      logical, intent(in) :: overwrite          !! an earlier result may be deleted, by `clear`
+      type(failure), intent(inout) :: problem   !! exit_input: holds a result, or another run; exit_files: cannot be used
       character(:), allocatable :: reason
 
       self%path = without_slashes(path)
+      self%cleared = .false.
       if (allocated(self%made)) deallocate (self%made)
       allocate (self%made(0))
       if (.not. path_exists(self%path)) call make_with_parents(self, problem)
@@ -67,26 +87,56 @@ contains
             hint_other())
       else if (.not. is_writable(self%path, reason)) then
          call problem%raise(exit_files, "cannot write results to '"//self%path//"': "//reason//hint_other())
-      else if (size(self%made) == 0) then
-         call deal_with_earlier_result(self%path, overwrite, problem)
+      else
+         call self%lock%acquire(self%path, lock_name, problem)
+         if (problem%raised()) call self%discard_if_empty()
+         if (problem%raised()) return
+         if (size(self%made) == 0) call look_at_earlier_result(self%path, overwrite, problem)
+         if (problem%raised()) call self%release()
       end if
    end subroutine prepare
 
-   !> Takes the directory of a run that shall go on. Changes nothing.
+   !> Takes the directory of a run that shall go on, for this process alone. Changes nothing.
    subroutine reopen(self, path, problem)
       class(result_directory_t), intent(inout) :: self
       character(*), intent(in) :: path
-      type(failure), intent(inout) :: problem   !! exit_files: cannot be used
+      type(failure), intent(inout) :: problem   !! exit_files: cannot be used; exit_input: another run holds it
       character(:), allocatable :: reason
 
       self%path = without_slashes(path)
+      self%cleared = .false.
       if (allocated(self%made)) deallocate (self%made)
       if (.not. is_directory(self%path)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': it is not a directory that can be read")
       else if (.not. is_writable(self%path, reason)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': "//reason)
+      else
+         call self%lock%acquire(self%path, lock_name, problem)
       end if
    end subroutine reopen
+
+   !> Deletes an earlier result's files, now that the new run can start.
+   subroutine clear(self, problem)
+      class(result_directory_t), intent(inout) :: self
+      type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
+
+      self%cleared = .true.
+      if (size(self%made) == 0) call delete_own_files(self%path, problem)
+   end subroutine clear
+
+   !> Gives the directory free, as the last thing.
+   subroutine release(self)
+      class(result_directory_t), intent(inout) :: self
+
+      call self%lock%release()
+   end subroutine release
+
+   !> Tells other machines that the directory is in use; to be called now and then.
+   subroutine keep_alive(self)
+      class(result_directory_t), intent(inout) :: self
+
+      call self%lock%beat()
+   end subroutine keep_alive
 
    !> Deletes the snapshots from a number on, and what was being written when a run was broken off.
    subroutine delete_later_snapshots(self, number, problem)
@@ -138,12 +188,13 @@ contains
       name = 'snapshot_'//digits//'.vtkhdf'
    end function snapshot_name
 
-   !> Deletes what dynsph writes from the directory, and what this run made of the path.
+   !> Takes back what this run did to the directory, and gives it free.
    subroutine discard(self, problem)
       class(result_directory_t), intent(inout) :: self
       type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
 
-      call delete_own_files(self%path, problem)
+      if (self%cleared) call delete_own_files(self%path, problem)
+      call self%release()
       call self%discard_if_empty()
    end subroutine discard
 
@@ -185,13 +236,13 @@ contains
       end do
    end subroutine make_with_parents
 
-   !> Refuses a directory with a result, or deletes the files of dynsph in it and nothing else.
-   subroutine deal_with_earlier_result(path, overwrite, problem)
+   !> Refuses a directory with a result unless that may be deleted, and files of others under the names of ours.
+   subroutine look_at_earlier_result(path, overwrite, problem)
       character(*), intent(in) :: path
       logical, intent(in) :: overwrite
       type(failure), intent(inout) :: problem
       character(longest_path), allocatable :: found(:)
-      integer :: i
+      integer :: i, k
 
       if (.not. overwrite) then
          do i = 1, size(result_signs)
@@ -201,10 +252,50 @@ contains
                "): choose another directory with --output DIR, or replace the result with --overwrite")
             return
          end do
-         return
       end if
-      call delete_own_files(path, problem)
-   end subroutine deal_with_earlier_result
+      do i = 1, size(own_files)
+         call find_files(path, trim(own_files(i)), found)
+         do k = 1, size(found)
+            if (is_foreign(path, trim(found(k)))) call problem%raise(exit_input, "'"//trim(found(k)) &
+               //"' was not written by a run of dynsph, which has that name for one of its own: move it away, or choose " &
+               //'another directory with --output DIR')
+         end do
+      end do
+   end subroutine look_at_earlier_result
+
+   ! Whether somebody else has written a file with a name of ours. A log can be known only by the input beside it.
+   logical function is_foreign(directory, path)
+      character(*), intent(in) :: directory, path
+      integer :: k
+
+      is_foreign = .false.
+      if (file_bytes(path) == 0) return   ! nothing can be lost
+      if (path == directory//'/'//log_name) is_foreign = .not. path_exists(directory//'/'//input_name)
+      do k = 1, size(beginnings)
+         if (.not. ends_with(path, trim(beginnings(k)%ending))) cycle
+         is_foreign = .not. begins_with(path, trim(beginnings(k)%letters))
+         if (.not. is_foreign) return
+      end do
+   end function is_foreign
+
+   pure logical function ends_with(path, letters)
+      character(*), intent(in) :: path, letters
+
+      ends_with = len(path) >= len(letters) .and. path(max(1, len(path) - len(letters) + 1):) == letters
+   end function ends_with
+
+   logical function begins_with(path, letters)
+      character(*), intent(in) :: path, letters
+      character(len(letters)) :: start
+      integer :: unit, status
+
+      begins_with = .false.
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
+      if (status /= 0) return
+      read (unit, iostat=status) start
+      begins_with = status == 0 .and. start == letters
+      close (unit)
+   end function begins_with
 
    subroutine delete_own_files(path, problem)
       character(*), intent(in) :: path
