@@ -11,7 +11,8 @@ module changed_keys
 
    !> Neither the flow nor what is in the files depends on these.
    character(*), parameter :: harmless(*) = [character(longest_name) :: 'time.end_time', 'time.max_steps', 'time.max_wall_time', &
-      'output.energy', 'output.probes', 'output.errors', 'output.snapshots', 'output.precision', 'output.checkpoint']
+      'time.balance_limit', 'output.energy', 'output.probes', 'output.errors', 'output.snapshots', 'output.precision', &
+      'output.checkpoint']
 
    !> Tables that are there or not.
    character(*), parameter :: tables(*) = [character(longest_name) :: 'output.energy', 'output.probes', 'output.errors']

@@ -1,5 +1,6 @@
 !> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
 module simulation
+   use balance_watch, only: watch_balance
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
    use cost, only: cost_t, estimate_cost
@@ -206,7 +207,13 @@ contains
             status = 'failed: numerics'
             ! The state before the step is still there.
             state%step = before
-            call record_failure(scene, model, state, directory, problem)
+            call record_failure(scene, model, state, directory, 'The state before the step', problem)
+            exit
+         end if
+         call watch_balance(scene%time%balance_limit, model, state, problem)
+         if (problem%raised()) then
+            status = 'failed: numerics'
+            call record_failure(scene, model, state, directory, 'The state', problem)
             exit
          end if
          call watch_limits(state%extremes, log, model, state%p, state%step)
@@ -234,15 +241,16 @@ contains
    end subroutine save_if_wanted
 
    ! All that is known of the last good state. A second failure would hide the first.
-   subroutine record_failure(scene, model, state, directory, problem)
+   subroutine record_failure(scene, model, state, directory, what, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      type(run_state_t), intent(inout) :: state   !! before the step that failed
+      type(run_state_t), intent(inout) :: state   !! before the step that failed, or at which it is seen
       type(result_directory_t), intent(in) :: directory
+      character(*), intent(in) :: what            !! is recorded
       type(failure), intent(inout) :: problem
       type(failure) :: ignored
 
-      problem%message = problem%message//'. The state before the step is in the last snapshot.'
+      problem%message = problem%message//'. '//what//' is in the last snapshot.'
       associate (recorder => state%recorder)
          if (recorder%when_snapshot%is_never()) call recorder%save_snapshot(scene, model, state%p, state%near, state%step, &
                                                                             directory, ignored)

@@ -15,7 +15,7 @@ module budget
    implicit none
    private
 
-   public :: budget_t, works_t, start_budget, update_budget, add_rotation
+   public :: budget_t, works_t, start_budget, update_budget, add_rotation, imbalance
 
    !> Energies given to the fluid since t = 0.
    type :: works_t
@@ -30,6 +30,7 @@ module budget
       logical :: has_rest = .false.          !! (not kept: of the scene)
       real(dp) :: normaliser = 1             !! Delta E_Mtot, or another scale: start_budget (not kept: of the scene)
       character(:), allocatable :: scale     !! what the normaliser is, in words (not kept: of the scene)
+      real(dp) :: at_start = 0               !! the normaliser, 0 where there is no energy at the start (not kept: of the scene)
       type(energies_t) :: now                !! (not kept: measured with each update)
       real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
       real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
@@ -105,6 +106,7 @@ contains
             self%scale = 'E_M(0) - E_M(at rest in the tank)'
          end if
       end if
+      self%at_start = max(0.0_dp, self%normaliser)
       if (.not. self%normaliser > 0) then
          self%normaliser = 1
          self%scale = '1: there is no energy at the start'
@@ -148,6 +150,24 @@ contains
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
+
+   !> What the balance misses at the base state, as a share of the energy at the start or of all that was turned over since,
+   !! whichever is larger; for a watch, and no part of the budget.
+   real(dp) function imbalance(self, model, p, works)
+      type(budget_t), intent(in) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(works_t), intent(in) :: works
+      type(energies_t) :: now
+      real(dp) :: gained, missing
+
+      call measure_energies(model, p, now)
+      gained = now%total() - self%initial%total()
+      missing = abs(gained - works%alpha - works%delta - works%walls - works%force)
+      imbalance = 0
+      if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + abs(works%alpha) + abs(works%delta) &
+                                               + abs(works%walls) + abs(works%force))
+   end function imbalance
 
    !> Adds to Q_omega what the real viscosity has dissipated since the last call, by the trapezoidal rule.
    !! Source: eq. 29.

@@ -210,8 +210,10 @@ contains
             call keys%add(key_t('end_time', 'Time at which the run ends.', 's', positive, .true., time%end_time))
             call keys%add(key_t('max_steps', 'Number of steps after which the run ends early. 0: no limit.', '-', not_negative, &
                                 whole=time%max_steps))
-            call keys%add(key_t('max_wall_time', 'Seconds of the clock on the wall after which the run ends early. 0: no limit.', &
-                                's', not_negative, number=time%max_wall_time))
+            call keys%add(key_t('max_wall_time', 'Seconds of the clock on the wall after which the run stops; it can go on. '// &
+                                '0: no limit.', 's', not_negative, number=time%max_wall_time))
+            call keys%add(key_t('balance_limit', 'Share of the energy that the budget may miss; a run that misses more has '// &
+                                'failed. 0: no limit.', '-', not_negative, number=time%balance_limit))
          end associate
       end select
    end subroutine add_keys_of_method

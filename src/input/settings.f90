@@ -104,6 +104,7 @@ module settings
       real(dp) :: end_time = 0.0_dp        !! [s]
       integer :: max_steps = 0             !! 0: no limit
       real(dp) :: max_wall_time = 0.0_dp   !! 0: no limit [s of the clock on the wall]
+      real(dp) :: balance_limit = 0.5_dp   !! share of the energy that the budget may miss; 0: no limit [-]
    end type time_settings
 
    !> &output: what is written and how often; cadences are read by module `cadence`.
