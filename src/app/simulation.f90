@@ -20,7 +20,7 @@ module simulation
    use step_check, only: check_step
    use step_state, only: start_extremes, step_t
    use stopping, only: stopping_t
-   use text, only: short, to_text
+   use text, only: for_shell, short, to_text
    use threads, only: limit_threads
    use time_step, only: advance, go_on, refresh, sorts_next
    use timers, only: timers_t, wall_seconds
@@ -290,7 +290,7 @@ contains
       if (reason == '') then
          call log%warn('ended early', words)
       else
-         if (resumable) words = words//'. It goes on with: dynsph --resume '//path
+         if (resumable) words = words//'. It goes on with: dynsph --resume '//for_shell(path)
          call log%keep(words)
          call problem%raise(exit_stopped, words)
       end if

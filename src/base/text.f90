@@ -6,7 +6,7 @@ module text
    private
 
    public :: to_text, short, rounded_down, rounded_up, parse_real, parse_integer, behind, has_control_characters, lower_case, &
-      quoted, nearest_word
+      quoted, for_shell, nearest_word
 
    integer, parameter :: largest_exponent = range(1.0_dp)   ! powers of ten both ways
    integer, parameter :: beyond = 10**6     ! stands for any exponent far too large
@@ -281,6 +281,26 @@ contains
       end do
       in_quotes = buffer(:length)//"'"
    end function quoted
+
+   !> A word as a shell takes it for one.
+   pure function for_shell(word) result(safe)
+      character(*), intent(in) :: word
+      character(:), allocatable :: safe
+      character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:=@%'
+      integer :: i
+
+      safe = word
+      if (verify(word, plain) == 0 .and. len(word) > 0) return
+      safe = "'"
+      do i = 1, len(word)
+         if (word(i:i) == "'") then
+            safe = safe//"'\''"
+         else
+            safe = safe//word(i:i)
+         end if
+      end do
+      safe = safe//"'"
+   end function for_shell
 
    !> What comes behind the first letters of a text. (`words = words(3:)` reads beyond its end with gfortran 12: it is made
    !! shorter before it is read.)
