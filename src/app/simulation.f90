@@ -41,7 +41,7 @@ module simulation
    integer, parameter :: phase_output = 5
    real(dp), parameter :: poor_balance = 5.0e-3_dp   !! error of the energy balance that is worth a warning
    character(*), parameter :: phases(5) = [character(32) :: 'sort, images, neighbours', 'gradients, viscosity', &
-                                           'density diffusion, stage 1', 'later stages', 'energies, probes, snapshots']
+                                           'density diffusion, stage 1', 'later stages', 'energies, probes, files']
 
 contains
 
