@@ -183,7 +183,8 @@ contains
       p = variant%p
       run = variant%run
       call refresh(variant%model, p, near, run, timers)
-      call variant%recorder%start(variant%scene, '', variant%model, p, variant%directory, problem)
+      call variant%recorder%start(variant%scene, '', variant%model, p)
+      call variant%recorder%open(variant%scene, variant%directory, problem)
    end subroutine open_tables
 
    subroutine measure()
@@ -196,7 +197,7 @@ contains
          end do
       end do
       do k = 2, size(variants)
-         call variants(k)%recorder%finish(problem)
+         call variants(k)%recorder%finish(variants(k)%directory, problem)
       end do
    end subroutine measure
 

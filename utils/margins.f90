@@ -9,6 +9,7 @@ program margins
    use, intrinsic :: iso_fortran_env, only: output_unit
    use command_line, only: command_line_t
    use errors, only: end_program, exit_input, failure
+   use file_system, only: check_screen, errors_for_signals
    use kinds, only: dp
    use linear_stability, only: margins_t
    use options, only: options_t
@@ -28,11 +29,13 @@ program margins
 
    call declare_options(given)
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.true.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-margins [--sound S] [--diffusion D] [--viscous V] SCENE.nml', ''
       call given%write_help(output_unit)
+      call check_screen(problem)
    else if (.not. problem%raised()) then
       call run_scene()
    end if

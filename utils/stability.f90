@@ -7,6 +7,7 @@
 program stability
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, exit_numerics, failure
+   use file_system, only: check_screen, errors_for_signals
    use integrators, only: integrator_names
    use kinds, only: dp, i8
    use linear_stability, only: stability_t
@@ -39,12 +40,14 @@ program stability
 
    call declare_options(given)
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    call limit_threads(across**2)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-stability --delta D --alpha A [--cfl C]', ''
       call given%write_help(output_unit)
+      call check_screen(problem)
       call end_program(problem)
    end if
    call set_up(given, scene, problem)
@@ -67,6 +70,7 @@ program stability
          if (.not. problem%raised()) write (output_unit, '(2f9.4, 2f11.5)') delta, alpha, theory, edge
       end if
    end associate
+   if (.not. problem%raised()) call check_screen(problem)
    call end_program(problem)
 
 contains

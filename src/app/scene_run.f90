@@ -63,7 +63,7 @@ contains
       input_text = beginning%input
       if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
       call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
-      call log%close()
+      call log%close(problem)
       ! A run that could not start leaves nothing behind.
       if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory

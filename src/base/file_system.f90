@@ -3,19 +3,24 @@
 !!
 !! Each call returns the system's reason, '' when it succeeded.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_long, c_null_char, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
       c_null_funptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: exit_files, failure
    use growing_text, only: growing_text_t
    use kinds, only: i8
    implicit none
    private
 
-   public :: delete_file, file_bytes, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, &
-      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
+   public :: check_screen, delete_file, errors_for_signals, file_bytes, find_files, flush_unit, forget_reason, is_directory, &
+      is_link, is_writable, last_reason, make_directory, partial_path, path_exists, print_text, publish, read_whole_file, &
+      remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
-   character(*), parameter, public :: no_space = 'no space left on the disk'
+   character(*), parameter :: cut_short = 'the system has not taken all of it'
+   character(*), parameter :: no_screen = 'cannot write to standard output: '
+   integer(c_int), parameter :: standard_output = 1   !! descriptor
+   integer(c_int), parameter :: from_here = 1         !! SEEK_CUR
 
    integer(c_int), parameter :: mode_exists = 0, mode_write_search = 3   !! for access()
    integer(c_int), parameter :: all_may_read = int(o'777', c_int)        !! less the user's umask
@@ -103,6 +108,12 @@ module file_system
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value :: count
       end function c_write
+
+      integer(c_intptr_t) function c_signal(number, handler) bind(c, name='signal')
+         import :: c_int, c_intptr_t
+         integer(c_int), value :: number
+         integer(c_intptr_t), value :: handler
+      end function c_signal
 
       integer(c_int) function c_fdatasync(descriptor) bind(c, name='fdatasync')
          import :: c_int
@@ -193,6 +204,7 @@ contains
       character(:), allocatable, intent(out) :: reason
 
       reason = reason_of(c_mkdir(c_text(path), all_may_read))
+      if (len(reason) > 0 .and. is_link(path)) reason = 'it is a symbolic link that leads nowhere'
    end subroutine make_directory
 
    !> Removes a directory if it is empty; fails, and changes nothing, otherwise.
@@ -295,7 +307,7 @@ contains
       character(*), intent(in) :: path
       character(*), intent(in) :: text          !! with its own line ends
       type(failure), intent(inout) :: problem   !! exit_files
-      character(:), allocatable :: ignored
+      character(:), allocatable :: ignored, reason
       character(256) :: message
       integer :: unit, status
 
@@ -304,10 +316,9 @@ contains
       if (status == 0) then
          write (unit, iostat=status, iomsg=message) text
          if (status == 0) then
-            if (.not. has_size(unit, len(text, i8))) then
-               status = 1
-               message = no_space
-            end if
+            call secure_unit(unit, len(text, i8), reason)
+            status = len(reason)
+            message = reason
          end if
          close (unit)
       end if
@@ -347,35 +358,103 @@ contains
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
    end subroutine read_whole_file
 
-   !> True when the system has taken all bytes written to a unit. gfortran's FLUSH and CLOSE keep a full disk to themselves, and
-   !! INQUIRE counts what the disk did not take; the place that the open file has reached is the system's own.
-   logical function has_size(unit, bytes)
+   !> From here on a write beyond the limit of a file's size (ulimit -f) fails as one to a full disk does, and does not end the
+   !! program; so does one into a pipe that nobody reads any more, where that is asked for.
+   subroutine errors_for_signals(pipes)
+      logical, intent(in) :: pipes
+      integer(c_int), parameter :: broken_pipe = 13, beyond_file_size = 25   ! SIGPIPE, SIGXFSZ of Linux
+      integer(c_intptr_t), parameter :: ignore = 1                          ! SIG_IGN
+      integer(c_intptr_t) :: before
+
+      before = c_signal(beyond_file_size, ignore)
+      if (pipes) before = c_signal(broken_pipe, ignore)
+   end subroutine errors_for_signals
+
+   !> Hands what was written to a unit to the system. gfortran's WRITE, FLUSH and CLOSE keep a full disk to themselves, and INQUIRE
+   !! counts what the disk did not take; the place that the open file has reached is the system's own.
+   subroutine flush_unit(unit, bytes, reason)
       integer, intent(in) :: unit
       integer(i8), intent(in) :: bytes   !! written so far
-      integer(c_int), parameter :: from_here = 1   ! SEEK_CUR
-      integer(c_int) :: descriptor, status
+      character(:), allocatable, intent(out) :: reason
+      integer(c_int) :: descriptor
       integer(i8) :: taken
+      integer :: ignored
 
-      flush (unit, iostat=status)
-      has_size = status == 0
-      if (.not. has_size) return
+      call forget_reason()
+      flush (unit, iostat=ignored)
+      reason = last_reason('')
+      if (reason /= '') return
       descriptor = c_descriptor(int(unit, c_int))
       taken = c_lseek(descriptor, 0_c_long, from_here)
-      if (taken >= bytes) return
-      ! Pipes and devices have no places, and nothing that could be brought to a disk; /dev/full takes not even nothing.
-      status = c_fdatasync(descriptor)
-      has_size = status /= 0
-      if (has_size) has_size = c_write(descriptor, c_null_char, 0_c_size_t) == 0
-   end function has_size
+      if (taken < 0) then
+         ! Pipes and devices have no places; /dev/full takes not even nothing.
+         reason = reason_of(int(c_write(descriptor, c_null_char, 0_c_size_t), c_int))
+      else if (taken < bytes) then
+         reason = cut_short
+      end if
+   end subroutine flush_unit
 
-   !> As `has_size`, and what was written is on the disk.
-   logical function secure_unit(unit, bytes)
+   !> As `flush_unit`, and what was written is on the disk.
+   subroutine secure_unit(unit, bytes, reason)
       integer, intent(in) :: unit
       integer(i8), intent(in) :: bytes   !! written so far
+      character(:), allocatable, intent(out) :: reason
+      integer(c_int) :: descriptor
 
-      secure_unit = has_size(unit, bytes)
-      if (secure_unit) secure_unit = c_fdatasync(c_descriptor(int(unit, c_int))) == 0
-   end function secure_unit
+      call flush_unit(unit, bytes, reason)
+      if (reason /= '') return
+      descriptor = c_descriptor(int(unit, c_int))
+      if (c_lseek(descriptor, 0_c_long, from_here) >= 0) reason = reason_of(c_fdatasync(descriptor))
+   end subroutine secure_unit
+
+   !> Writes a text, with its own line ends, to standard output.
+   subroutine print_text(text, problem)
+      character(*), intent(in) :: text
+      type(failure), intent(inout) :: problem   !! exit_files
+      integer(c_size_t) :: done, taken
+
+      flush (output_unit)
+      done = 0
+      do while (done < len(text))
+         taken = c_write(standard_output, text(done + 1:), len(text) - done)
+         if (taken <= 0) then
+            call problem%raise(exit_files, no_screen//reason_of(-1_c_int))
+            exit
+         end if
+         done = done + taken
+      end do
+   end subroutine print_text
+
+   !> Raises exit_files if standard output does not take what was written to it.
+   subroutine check_screen(problem)
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: reason
+
+      call forget_reason()
+      flush (output_unit)
+      reason = last_reason('')
+      if (reason == '') reason = reason_of(int(c_write(standard_output, c_null_char, 0_c_size_t), c_int))
+      if (reason /= '') call problem%raise(exit_files, no_screen//reason)
+   end subroutine check_screen
+
+   !> From here on `last_reason` tells of what comes.
+   subroutine forget_reason()
+      integer(c_int), pointer :: number
+
+      call c_f_pointer(c_errno_address(), number)
+      number = 0
+   end subroutine forget_reason
+
+   !> The system's words for the last of its calls that failed since `forget_reason`, also of a call that a library made.
+   function last_reason(otherwise) result(reason)
+      character(*), intent(in) :: otherwise   !! if none failed
+      character(:), allocatable :: reason
+      integer(c_int), pointer :: number
+
+      call c_f_pointer(c_errno_address(), number)
+      reason = otherwise
+      if (number /= 0) reason = fortran_text(c_strerror(number))
+   end function last_reason
 
    !> The system's words for the call that returned this status; '' for success.
    function reason_of(status) result(reason)

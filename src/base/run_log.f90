@@ -5,6 +5,8 @@ module run_log
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: exit_files, failure
+   use file_system, only: check_screen, file_bytes, flush_unit, secure_unit
+   use kinds, only: i8
    implicit none
    private
 
@@ -27,10 +29,14 @@ module run_log
    type :: log_t
       private
       integer :: unit = no_unit
+      character(:), allocatable :: path
+      integer(i8) :: bytes = 0               !! that the file must have by now
+      character(:), allocatable :: lost      !! why some of it could not be written; not allocated while all was
       logical :: quiet = .false.             !! nothing on standard output
       logical :: terminal = .false.          !! standard output is a terminal
       logical :: unicode = .false.           !! the user's locale is UTF-8
       logical :: transient_shown = .false.   !! the cursor stands in a transient line
+      logical :: blind = .false.             !! standard output cannot be written any more
       type(tally_t), allocatable :: tallies(:)
    contains
       procedure :: open => open_log
@@ -70,10 +76,15 @@ contains
       self%terminal = c_isatty(1_c_int) == 1
       self%unicode = locale_is_utf8()
       if (path == '') return
+      self%path = trim(path)
+      self%bytes = 0
       before = 'replace'
       if (present(goes_on)) before = merge('unknown', 'replace', goes_on)
       open (newunit=self%unit, file=path, status=before, position='append', action='write', iostat=status, iomsg=message)
-      if (status == 0) return
+      if (status == 0) then
+         if (before == 'unknown') self%bytes = max(0_i8, file_bytes(path))
+         return
+      end if
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))
    end subroutine open_log
@@ -110,8 +121,7 @@ contains
       character(*), intent(in) :: text
 
       if (self%quiet .or. .not. self%terminal) return
-      write (output_unit, '(a)', advance='no') return_and_clear//wrap_off//text//wrap_on
-      flush (output_unit)
+      call show(self, return_and_clear//wrap_off//text//wrap_on)
       self%transient_shown = .true.
    end subroutine transient
 
@@ -189,12 +199,21 @@ contains
       end do
    end subroutine report_warnings
 
-   subroutine close_log(self)
+   !> Ends the file, which is on the disk then. Raises exit_files if a part of it could not be written.
+   subroutine close_log(self, problem)
       class(log_t), intent(inout) :: self
+      type(failure), intent(inout), optional :: problem
+      character(:), allocatable :: reason
+      integer :: ignored
 
       call clear_transient(self)
-      if (self%unit /= no_unit) close (self%unit)
+      if (self%unit == no_unit) return
+      call secure_unit(self%unit, self%bytes, reason)
+      if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
+      close (self%unit, iostat=ignored)
       self%unit = no_unit
+      if (.not. (present(problem) .and. allocated(self%lost))) return
+      call problem%raise(exit_files, "cannot write the log '"//self%path//"': "//self%lost)
    end subroutine close_log
 
    !> True when transient lines are shown.
@@ -219,27 +238,55 @@ contains
       character(*), intent(in) :: text
 
       call clear_transient(self)
-      write (unit, '(a)') text
-      flush (unit)
+      if (unit == output_unit) then
+         call show(self, text//new_line('a'))
+      else
+         call complain(text)
+      end if
    end subroutine to_screen
 
-   !> A log that cannot be written on (a full disk) does not end the run: its results will.
-   subroutine to_file(self, text)
-      class(log_t), intent(in) :: self
+   !> Writes to standard output. A run that has lost it says so once, and goes on: its log has the same lines.
+   subroutine show(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text   !! with its line ends
+      type(failure) :: problem
+      integer :: ignored
+
+      if (self%blind) return
+      write (output_unit, '(a)', advance='no', iostat=ignored) text
+      call check_screen(problem)
+      self%blind = problem%raised()
+      if (self%blind .and. self%unit /= no_unit) &
+         call complain('warning: '//problem%message//"; the run goes on, and '"//self%path//"' has what it says")
+   end subroutine show
+
+   subroutine complain(text)
       character(*), intent(in) :: text
+      integer :: ignored
+
+      write (error_unit, '(a)', iostat=ignored) text
+      flush (error_unit, iostat=ignored)
+   end subroutine complain
+
+   !> A log that cannot be written on (a full disk) does not end the run at once: its results may.
+   subroutine to_file(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text
+      character(:), allocatable :: reason
       integer :: ignored
 
       if (self%unit == no_unit) return
       write (self%unit, '(a)', iostat=ignored) text
-      flush (self%unit, iostat=ignored)
+      self%bytes = self%bytes + len(text) + 1
+      call flush_unit(self%unit, self%bytes, reason)
+      if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
    end subroutine to_file
 
    subroutine clear_transient(self)
       class(log_t), intent(inout) :: self
 
       if (.not. self%transient_shown) return
-      write (output_unit, '(a)', advance='no') return_and_clear
-      flush (output_unit)
+      call show(self, return_and_clear)
       self%transient_shown = .false.
    end subroutine clear_transient
 

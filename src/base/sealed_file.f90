@@ -5,6 +5,7 @@
 !! CRC-32 of zlib, of all bytes that follow it.
 module sealed_file
    use, intrinsic :: iso_fortran_env, only: int8
+   use file_system, only: forget_reason, last_reason
    use kinds, only: i8
    implicit none
    private
@@ -38,6 +39,12 @@ contains
       if (status == 0) then
          found = checksum(unit)   ! not within the statement: it reads the same unit
          write (unit, pos=1, iostat=status, iomsg=message) sign//found
+      end if
+      if (status == 0) then
+         call forget_reason()
+         flush (unit)
+         message = last_reason('')
+         status = len_trim(message)
       end if
       close (unit)
    end subroutine seal_file

@@ -6,7 +6,7 @@ module hdf5_writer
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use errors, only: exit_files, failure
-   use file_system, only: delete_file, partial_path, publish, secure_path
+   use file_system, only: delete_file, forget_reason, last_reason, partial_path, publish, secure_path
    use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dont_atexit_f, h5dwrite_f, &
       h5eset_auto_f, &
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
@@ -29,7 +29,8 @@ module hdf5_writer
       private
       integer(hid_t) :: file = -1
       logical :: failed = .false.
-      character(:), allocatable :: path, failed_at
+      character(:), allocatable :: path
+      character(:), allocatable :: failed_at, reason   !! where, and the system's words
       character(:), allocatable :: seal   !! words of the seal; not allocated for a file without one
    contains
       procedure :: create
@@ -73,6 +74,7 @@ contains
 
       self%path = trim(path)
       self%failed = .false.
+      call forget_reason()
       call open_library(status)
       call note(self, status, 'the HDF5 library')
       ! Headers of this form have checksums; HDF5 1.10 (2016) and newer read them.
@@ -311,7 +313,7 @@ contains
          if (.not. problem%raised()) return
       else
          call problem%raise(exit_files, "cannot write '"//self%path//"' (at "//self%failed_at// &
-            '): is there space left, and may you write there?')
+            '): '//self%reason)
       end if
       call delete_file(partial_path(self%path), ignored)
    end subroutine finish
@@ -328,6 +330,7 @@ contains
       if (self%failed) return
       call secure_path(partial_path(self%path), reason)
       call note(self, merge(0, -1, reason == ''), 'its checksum')
+      if (reason /= '') self%reason = reason
    end subroutine close_seal
 
    !> Writes one dataset without compression, which would take longer than the step.
@@ -403,15 +406,20 @@ contains
       call h5sclose_f(space, ignored)
    end subroutine put_attribute
 
-   !> Remembers the first call that failed.
+   !> Remembers the first call that failed, and what the system had to say.
    subroutine note(self, status, place)
       class(hdf5_writer_t), intent(inout) :: self
       integer, intent(in) :: status
       character(*), intent(in) :: place
 
-      if (status >= 0 .or. self%failed) return
+      if (self%failed) return
+      if (status >= 0) then
+         call forget_reason()   ! what HDF5 tried in vain and did without
+         return
+      end if
       self%failed = .true.
       self%failed_at = place
+      self%reason = last_reason('HDF5 could not')
    end subroutine note
 
 end module hdf5_writer
