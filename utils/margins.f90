@@ -9,7 +9,6 @@ program margins
    use, intrinsic :: iso_fortran_env, only: output_unit
    use command_line, only: command_line_t
    use errors, only: end_program, exit_input, failure
-   use file_system, only: check_screen, errors_for_signals
    use kinds, only: dp
    use linear_stability, only: margins_t
    use options, only: options_t
@@ -18,6 +17,7 @@ program margins
    use scene_run, only: run_into_directory
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: check_screen, errors_for_signals
    use text, only: short
    use waiting, only: sleep_while_waiting
    implicit none

@@ -9,7 +9,6 @@
 program spectra_accuracy
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, failure
-   use file_system, only: check_screen, errors_for_signals
    use gradient_fields, only: gradient_fields_t, measure_gradients
    use interpolation, only: covering_grid, filling, fluid_t, grid_t, grid_values, scheme_h, sort_fluid
    use kernel_transform, only: transform_of_kernel
@@ -19,6 +18,7 @@ program spectra_accuracy
    use plane_spectrum, only: add_spectrum, new_rings, power_above, rings_t
    use program_arguments, only: take_arguments
    use rectangles, only: largest_rectangle
+   use standard_output, only: check_screen, errors_for_signals
    use waiting, only: sleep_while_waiting
    implicit none
 

@@ -7,7 +7,6 @@
 program stability
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, exit_numerics, failure
-   use file_system, only: check_screen, errors_for_signals
    use integrators, only: integrator_names
    use kinds, only: dp, i8
    use linear_stability, only: stability_t
@@ -18,6 +17,7 @@ program stability
    use program_arguments, only: take_arguments
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: body_settings, settings_t
+   use standard_output, only: check_screen, errors_for_signals
    use step_state, only: step_t
    use time_step, only: advance, refresh
    use timers, only: timers_t

@@ -5,7 +5,6 @@ program main
    use command_line, only: command_line_t, parse_command_line, write_help
    use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
-   use file_system, only: check_screen, errors_for_signals, print_text
    use lanes, only: how_chosen, nl, root_name
    use model, only: model_t
    use preliminary, only: preliminary_text
@@ -20,6 +19,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: check_screen, errors_for_signals, print_text
    use text, only: to_text
    use threads, only: limit_threads
    use waiting, only: sleep_while_waiting

@@ -3,24 +3,22 @@
 !!
 !! Each call returns the system's reason, '' when it succeeded.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_long, c_null_char, &
       c_null_funptr, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: exit_files, failure
    use growing_text, only: growing_text_t
    use kinds, only: i8
+   use system_words, only: c_words, forget_reason, last_number, last_reason, reason_of
    implicit none
    private
 
-   public :: check_screen, delete_file, errors_for_signals, file_bytes, find_files, flush_unit, forget_reason, is_directory, &
-      is_link, is_writable, last_reason, make_directory, partial_path, path_exists, print_text, publish, read_whole_file, &
-      remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
+   public :: delete_file, file_bytes, find_files, flush_unit, is_directory, is_link, is_writable, make_directory, partial_path, &
+      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, seek_end, &
+      shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
    character(*), parameter :: cut_short = 'the system has not taken all of it'
-   character(*), parameter :: no_screen = 'cannot write to standard output: '
-   integer(c_int), parameter :: standard_output = 1   !! descriptor
-   integer(c_int), parameter :: from_here = 1         !! SEEK_CUR
+   integer(c_int), parameter :: from_here = 1   !! SEEK_CUR
 
    integer(c_int), parameter :: mode_exists = 0, mode_write_search = 3   !! for access()
    integer(c_int), parameter :: all_may_read = int(o'777', c_int)        !! less the user's umask
@@ -109,12 +107,6 @@ module file_system
          integer(c_size_t), value :: count
       end function c_write
 
-      integer(c_intptr_t) function c_signal(number, handler) bind(c, name='signal')
-         import :: c_int, c_intptr_t
-         integer(c_int), value :: number
-         integer(c_intptr_t), value :: handler
-      end function c_signal
-
       integer(c_int) function c_fdatasync(descriptor) bind(c, name='fdatasync')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -146,19 +138,6 @@ module file_system
          type(c_ptr), value :: stream
       end function c_fclose
 
-      type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
-         import :: c_ptr
-      end function c_errno_address
-
-      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-      end function c_strerror
-
-      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-      end function c_strlen
    end interface
 
 contains
@@ -279,7 +258,7 @@ contains
       call c_f_pointer(found%paths, list, [found%number])
       allocate (paths(size(list)))
       do i = 1, size(list)
-         paths(i) = fortran_text(list(i))
+         paths(i) = c_words(list(i))
       end do
       call c_globfree(found)
    end subroutine find_files
@@ -358,18 +337,6 @@ contains
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
    end subroutine read_whole_file
 
-   !> From here on a write beyond the limit of a file's size (ulimit -f) fails as one to a full disk does, and does not end the
-   !! program; so does one into a pipe that nobody reads any more, where that is asked for.
-   subroutine errors_for_signals(pipes)
-      logical, intent(in) :: pipes
-      integer(c_int), parameter :: broken_pipe = 13, beyond_file_size = 25   ! SIGPIPE, SIGXFSZ of Linux
-      integer(c_intptr_t), parameter :: ignore = 1                          ! SIG_IGN
-      integer(c_intptr_t) :: before
-
-      before = c_signal(beyond_file_size, ignore)
-      if (pipes) before = c_signal(broken_pipe, ignore)
-   end subroutine errors_for_signals
-
    !> Hands what was written to a unit to the system. gfortran's WRITE, FLUSH and CLOSE keep a full disk to themselves, and INQUIRE
    !! counts what the disk did not take; the place that the open file has reached is the system's own.
    subroutine flush_unit(unit, bytes, reason)
@@ -379,6 +346,7 @@ contains
       integer(c_int) :: descriptor
       integer(i8) :: taken
       integer :: ignored
+      logical :: has_disk
 
       call forget_reason()
       flush (unit, iostat=ignored)
@@ -386,12 +354,9 @@ contains
       if (reason /= '') return
       descriptor = c_descriptor(int(unit, c_int))
       taken = c_lseek(descriptor, 0_c_long, from_here)
-      if (taken < 0) then
-         ! Pipes and devices have no places; /dev/full takes not even nothing.
-         reason = reason_of(int(c_write(descriptor, c_null_char, 0_c_size_t), c_int))
-      else if (taken < bytes) then
-         reason = cut_short
-      end if
+      if (taken >= bytes) return
+      call bring_to_disk(descriptor, has_disk, reason)
+      if (has_disk .and. reason == '') reason = cut_short
    end subroutine flush_unit
 
    !> As `flush_unit`, and what was written is on the disk.
@@ -399,76 +364,35 @@ contains
       integer, intent(in) :: unit
       integer(i8), intent(in) :: bytes   !! written so far
       character(:), allocatable, intent(out) :: reason
-      integer(c_int) :: descriptor
+      logical :: has_disk
 
       call flush_unit(unit, bytes, reason)
-      if (reason /= '') return
-      descriptor = c_descriptor(int(unit, c_int))
-      if (c_lseek(descriptor, 0_c_long, from_here) >= 0) reason = reason_of(c_fdatasync(descriptor))
+      if (reason == '') call bring_to_disk(c_descriptor(int(unit, c_int)), has_disk, reason)
    end subroutine secure_unit
 
-   !> Writes a text, with its own line ends, to standard output.
-   subroutine print_text(text, problem)
-      character(*), intent(in) :: text
-      type(failure), intent(inout) :: problem   !! exit_files
-      integer(c_size_t) :: done, taken
-
-      flush (output_unit)
-      done = 0
-      do while (done < len(text))
-         taken = c_write(standard_output, text(done + 1:), len(text) - done)
-         if (taken <= 0) then
-            call problem%raise(exit_files, no_screen//reason_of(-1_c_int))
-            exit
-         end if
-         done = done + taken
-      end do
-   end subroutine print_text
-
-   !> Raises exit_files if standard output does not take what was written to it.
-   subroutine check_screen(problem)
-      type(failure), intent(inout) :: problem
-      character(:), allocatable :: reason
+   ! What an open file has taken is on the disk then. Pipes and devices have none; they are asked whether they take anything:
+   ! /dev/full takes not even nothing.
+   subroutine bring_to_disk(descriptor, has_disk, reason)
+      integer(c_int), intent(in) :: descriptor
+      logical, intent(out) :: has_disk
+      character(:), allocatable, intent(out) :: reason
+      integer(c_int), parameter :: no_disk = 22   ! EINVAL of Linux
 
       call forget_reason()
-      flush (output_unit)
-      reason = last_reason('')
-      if (reason == '') reason = reason_of(int(c_write(standard_output, c_null_char, 0_c_size_t), c_int))
-      if (reason /= '') call problem%raise(exit_files, no_screen//reason)
-   end subroutine check_screen
+      reason = reason_of(c_fdatasync(descriptor))
+      has_disk = last_number() /= no_disk
+      if (.not. has_disk) reason = reason_of(int(c_write(descriptor, c_null_char, 0_c_size_t), c_int))
+   end subroutine bring_to_disk
 
-   !> From here on `last_reason` tells of what comes.
-   subroutine forget_reason()
-      integer(c_int), pointer :: number
+   !> The place of a file that was opened to be appended to: gfortran goes there with the first row only, and until then the file
+   !! would seem to have lost what is in it.
+   subroutine seek_end(unit)
+      integer, intent(in) :: unit
+      integer(c_int), parameter :: from_end = 2   ! SEEK_END
+      integer(i8) :: ignored
 
-      call c_f_pointer(c_errno_address(), number)
-      number = 0
-   end subroutine forget_reason
-
-   !> The system's words for the last of its calls that failed since `forget_reason`, also of a call that a library made.
-   function last_reason(otherwise) result(reason)
-      character(*), intent(in) :: otherwise   !! if none failed
-      character(:), allocatable :: reason
-      integer(c_int), pointer :: number
-
-      call c_f_pointer(c_errno_address(), number)
-      reason = otherwise
-      if (number /= 0) reason = fortran_text(c_strerror(number))
-   end function last_reason
-
-   !> The system's words for the call that returned this status; '' for success.
-   function reason_of(status) result(reason)
-      integer(c_int), intent(in) :: status
-      character(:), allocatable :: reason
-      integer(c_int), pointer :: number
-
-      if (status == 0) then
-         reason = ''
-         return
-      end if
-      call c_f_pointer(c_errno_address(), number)
-      reason = fortran_text(c_strerror(number))
-   end function reason_of
+      ignored = c_lseek(c_descriptor(int(unit, c_int)), 0_c_long, from_end)
+   end subroutine seek_end
 
    !> A path in which no character is special to glob().
    pure function literal(path)
@@ -489,18 +413,5 @@ contains
 
       c_text = trim(text)//c_null_char
    end function c_text
-
-   function fortran_text(address) result(text)
-      type(c_ptr), intent(in) :: address
-      character(:), allocatable :: text
-      character(kind=c_char), pointer :: bytes(:)
-      integer :: i
-
-      call c_f_pointer(address, bytes, [c_strlen(address)])
-      allocate (character(size(bytes)) :: text)
-      do i = 1, size(bytes)
-         text(i:i) = bytes(i)
-      end do
-   end function fortran_text
 
 end module file_system

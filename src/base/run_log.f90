@@ -5,8 +5,9 @@ module run_log
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: exit_files, failure
-   use file_system, only: check_screen, file_bytes, flush_unit, secure_unit
+   use file_system, only: file_bytes, flush_unit, secure_unit, seek_end
    use kinds, only: i8
+   use standard_output, only: check_screen
    implicit none
    private
 
@@ -83,6 +84,7 @@ contains
       open (newunit=self%unit, file=path, status=before, position='append', action='write', iostat=status, iomsg=message)
       if (status == 0) then
          if (before == 'unknown') self%bytes = max(0_i8, file_bytes(path))
+         call seek_end(self%unit)
          return
       end if
       self%unit = no_unit

@@ -5,8 +5,8 @@
 !! CRC-32 of zlib, of all bytes that follow it.
 module sealed_file
    use, intrinsic :: iso_fortran_env, only: int8
-   use file_system, only: forget_reason, last_reason
    use kinds, only: i8
+   use system_words, only: forget_reason, last_reason
    implicit none
    private
 

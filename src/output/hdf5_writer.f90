@@ -6,7 +6,7 @@ module hdf5_writer
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use errors, only: exit_files, failure
-   use file_system, only: delete_file, forget_reason, last_reason, partial_path, publish, secure_path
+   use file_system, only: delete_file, partial_path, publish, secure_path
    use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dont_atexit_f, h5dwrite_f, &
       h5eset_auto_f, &
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
@@ -17,6 +17,7 @@ module hdf5_writer
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
    use sealed_file, only: seal_bytes, seal_file
+   use system_words, only: forget_reason, last_reason
    implicit none
    private
 

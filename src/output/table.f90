@@ -5,7 +5,7 @@
 module table
    use archive, only: archive_t
    use errors, only: exit_files, failure
-   use file_system, only: file_bytes, flush_unit, path_exists, secure_unit, shorten_file
+   use file_system, only: file_bytes, flush_unit, path_exists, secure_unit, seek_end, shorten_file
    use kinds, only: dp, i8
    use timers, only: wall_seconds
    implicit none
@@ -139,7 +139,10 @@ contains
          return
       end if
       open (newunit=self%unit, file=path, status='old', position='append', action='write', iostat=status, iomsg=message)
-      if (status == 0) return
+      if (status == 0) then
+         call seek_end(self%unit)
+         return
+      end if
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
    end subroutine go_on

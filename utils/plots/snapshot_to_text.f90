@@ -10,9 +10,10 @@
 program snapshot_to_text
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_files, exit_input, failure
-   use file_system, only: errors_for_signals, secure_unit
+   use file_system, only: secure_unit
    use hdf5_reader, only: hdf5_reader_t, name_length, numbers
    use kinds, only: dp, i8
+   use standard_output, only: errors_for_signals
    implicit none
 
    type :: column_t

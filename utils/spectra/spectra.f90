@@ -2,9 +2,9 @@
 program spectra
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, failure
-   use file_system, only: check_screen, errors_for_signals
    use probe_command, only: run_probe_command
    use program_arguments, only: take_arguments
+   use standard_output, only: check_screen, errors_for_signals
    use text, only: quoted
    use vorticity_command, only: run_vorticity_command
    use waiting, only: sleep_while_waiting
