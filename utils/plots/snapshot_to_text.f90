@@ -96,7 +96,7 @@ contains
       type(column_t), intent(in) :: columns(:)
       type(failure), intent(inout) :: problem   !! exit_files: cannot be written
       character(256) :: message
-      character(:), allocatable :: reason
+      character(:), allocatable :: reason, where
       character((2 + name_length)*size(columns) + 100) :: line
       integer(i8) :: bytes
       integer :: i, k, status, unit
@@ -133,7 +133,9 @@ contains
          status = len(reason)
          message = reason
       end if
-      if (status /= 0) call problem%raise(exit_files, 'cannot write the table: '//trim(message))
+      where = 'to standard output'
+      if (command_argument_count() == 2) where = "'"//argument(2)//"'"
+      if (status /= 0) call problem%raise(exit_files, 'cannot write '//where//': '//trim(message))
    end subroutine write_table
 
    ! A line, and its bytes.
