@@ -17,6 +17,7 @@ program margins
    use scene_run, only: run_into_directory
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: check_screen, errors_for_signals
    use text, only: short
    use waiting, only: sleep_while_waiting
    implicit none
@@ -28,11 +29,13 @@ program margins
 
    call declare_options(given)
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.true.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-margins [--sound S] [--diffusion D] [--viscous V] SCENE.nml', ''
       call given%write_help(output_unit)
+      call check_screen(problem)
    else if (.not. problem%raised()) then
       call run_scene()
    end if

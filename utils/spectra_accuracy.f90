@@ -18,6 +18,7 @@ program spectra_accuracy
    use plane_spectrum, only: add_spectrum, new_rings, power_above, rings_t
    use program_arguments, only: take_arguments
    use rectangles, only: largest_rectangle
+   use standard_output, only: check_screen, errors_for_signals
    use waiting, only: sleep_while_waiting
    implicit none
 
@@ -43,11 +44,13 @@ program spectra_accuracy
    call given%add('--smoothing', 'H/DX', '1.25', 'smoothing length of the interpolation, over dx')
    call given%add('--largest', 'K', '1', 'largest wavenumber of the waves, over pi/dx')
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-spectra-accuracy [options] SNAPSHOT.vtkhdf', ''
       call given%write_help(output_unit)
+      call check_screen(problem)
       call end_program(problem)
    end if
    smoothing = given%real_number('--smoothing', problem)
@@ -64,6 +67,7 @@ program spectra_accuracy
    end if
    if (.not. problem%raised()) call measure(snapshot, smoothing, largest, waves, measured, exact, problem)
    if (.not. problem%raised()) call print_row(nint(waves%extent/snapshot%spacing), measured, exact, snapshot%spacing, smoothing)
+   if (.not. problem%raised()) call check_screen(problem)
    call end_program(problem)
 
 contains

@@ -17,6 +17,7 @@ program stability
    use program_arguments, only: take_arguments
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: body_settings, settings_t
+   use standard_output, only: check_screen, errors_for_signals
    use step_state, only: step_t
    use time_step, only: advance, refresh
    use timers, only: timers_t
@@ -39,12 +40,14 @@ program stability
 
    call declare_options(given)
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)
    call limit_threads(across**2)
    if (given%help) then
       write (output_unit, '(a)') 'usage: dynsph-stability --delta D --alpha A [--cfl C]', ''
       call given%write_help(output_unit)
+      call check_screen(problem)
       call end_program(problem)
    end if
    call set_up(given, scene, problem)
@@ -67,6 +70,7 @@ program stability
          if (.not. problem%raised()) write (output_unit, '(2f9.4, 2f11.5)') delta, alpha, theory, edge
       end if
    end associate
+   if (.not. problem%raised()) call check_screen(problem)
    call end_program(problem)
 
 contains

@@ -19,6 +19,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: check_screen, errors_for_signals, print_text
    use text, only: to_text
    use threads, only: limit_threads
    use waiting, only: sleep_while_waiting
@@ -29,18 +30,22 @@ program main
    character(:), allocatable :: arguments(:)
 
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
    if (options%help) then
       call write_help(output_unit)
+      call check_screen(problem)
    else if (options%version) then
       call write_version()
+      call check_screen(problem)
    else if (options%template) then
-      write (output_unit, '(a)', advance='no') template(solutions_t())
+      call print_text(template(solutions_t()), problem)
    else if (options%keys) then
-      write (output_unit, '(a)', advance='no') tables(solutions_t())
+      call print_text(tables(solutions_t()), problem)
    else if (options%resume /= '') then
+      call errors_for_signals(pipes=.true.)
       call resume_run(options, problem)
    else
       call run_scene(options, problem)
@@ -72,10 +77,11 @@ contains
       call read_settings_text(content, options%scene, options%overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return
       if (options%shortest) then
-         write (output_unit, '(a)', advance='no') shortest_input(solutions_t(), scene)
+         call print_text(shortest_input(solutions_t(), scene), problem)
          return
       end if
       if (.not. options%check) then
+         call errors_for_signals(pipes=.true.)
          call run_into_directory(options, content, scene, warnings, problem)
          return
       end if
@@ -91,6 +97,7 @@ contains
       call check_room(scene, costs, output_directory(options), screen, problem)
       if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
       if (.not. problem%raised()) call screen%line(options%scene//' is valid; nothing was run')
+      if (.not. options%quiet) call check_screen(problem)
    end subroutine run_scene
 
 end program main

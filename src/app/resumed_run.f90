@@ -57,7 +57,7 @@ contains
          if (beginning%origin /= '') input_text = '! '//beginning%origin//new_line('a')//input_text
          call say_where_it_goes_on(log, beginning, remarks, changes)
          call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
-         call log%close()
+         call log%close(problem)
          if (beginning%forked .and. .not. began) call directory%discard(problem)
          if (beginning%forked) call directory%release()
       end if

@@ -53,7 +53,7 @@ contains
          if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
          call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
       end if
-      call log%close()
+      call log%close(problem)
       ! A run that could not start leaves nothing behind, and what was there before.
       if (began) call directory%release()
       if (.not. began) call directory%discard(problem)

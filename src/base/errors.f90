@@ -62,9 +62,11 @@ contains
    subroutine end_program(problem)
       type(failure), intent(in) :: problem
 
-      flush (output_unit)
-      if (problem%raised()) write (error_unit, '(a)') problem%message
-      flush (error_unit)
+      integer :: ignored
+
+      flush (output_unit, iostat=ignored)
+      if (problem%raised()) write (error_unit, '(a)', iostat=ignored) problem%message
+      flush (error_unit, iostat=ignored)
       call c_exit(int(problem%code, c_int))
    end subroutine end_program
 

@@ -8,15 +8,17 @@ module file_system
    use errors, only: exit_files, failure
    use growing_text, only: growing_text_t
    use kinds, only: i8
+   use system_words, only: c_words, forget_reason, last_number, last_reason, reason_of
    implicit none
    private
 
-   public :: delete_file, file_bytes, find_files, has_size, is_directory, is_link, is_writable, make_directory, partial_path, &
+   public :: delete_file, file_bytes, find_files, flush_unit, is_directory, is_link, is_writable, make_directory, partial_path, &
       path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, seek_end, &
       shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
-   character(*), parameter, public :: no_space = 'no space left on the disk'
+   character(*), parameter :: cut_short = 'the system has not taken all of it'
+   integer(c_int), parameter :: from_here = 1   !! SEEK_CUR
 
    integer(c_int), parameter :: mode_exists = 0, mode_write_search = 3   !! for access()
    integer(c_int), parameter :: all_may_read = int(o'777', c_int)        !! less the user's umask
@@ -136,19 +138,6 @@ module file_system
          type(c_ptr), value :: stream
       end function c_fclose
 
-      type(c_ptr) function c_errno_address() bind(c, name='__errno_location')
-         import :: c_ptr
-      end function c_errno_address
-
-      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-      end function c_strerror
-
-      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-      end function c_strlen
    end interface
 
 contains
@@ -194,6 +183,7 @@ contains
       character(:), allocatable, intent(out) :: reason
 
       reason = reason_of(c_mkdir(c_text(path), all_may_read))
+      if (len(reason) > 0 .and. is_link(path)) reason = 'it is a symbolic link that leads nowhere'
    end subroutine make_directory
 
    !> Removes a directory if it is empty; fails, and changes nothing, otherwise.
@@ -268,7 +258,7 @@ contains
       call c_f_pointer(found%paths, list, [found%number])
       allocate (paths(size(list)))
       do i = 1, size(list)
-         paths(i) = fortran_text(list(i))
+         paths(i) = c_words(list(i))
       end do
       call c_globfree(found)
    end subroutine find_files
@@ -296,7 +286,7 @@ contains
       character(*), intent(in) :: path
       character(*), intent(in) :: text          !! with its own line ends
       type(failure), intent(inout) :: problem   !! exit_files
-      character(:), allocatable :: ignored
+      character(:), allocatable :: ignored, reason
       character(256) :: message
       integer :: unit, status
 
@@ -305,10 +295,9 @@ contains
       if (status == 0) then
          write (unit, iostat=status, iomsg=message) text
          if (status == 0) then
-            if (.not. has_size(unit, len(text, i8))) then
-               status = 1
-               message = no_space
-            end if
+            call secure_unit(unit, len(text, i8), reason)
+            status = len(reason)
+            message = reason
          end if
          close (unit)
       end if
@@ -348,26 +337,52 @@ contains
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
    end subroutine read_whole_file
 
-   !> True when the system has taken all bytes written to a unit. gfortran's FLUSH and CLOSE keep a full disk to themselves, and
-   !! INQUIRE counts what the disk did not take; the place that the open file has reached is the system's own.
-   logical function has_size(unit, bytes)
+   !> Hands what was written to a unit to the system. gfortran's WRITE, FLUSH and CLOSE keep a full disk to themselves, and INQUIRE
+   !! counts what the disk did not take; the place that the open file has reached is the system's own.
+   subroutine flush_unit(unit, bytes, reason)
       integer, intent(in) :: unit
       integer(i8), intent(in) :: bytes   !! written so far
-      integer(c_int), parameter :: from_here = 1   ! SEEK_CUR
-      integer(c_int) :: descriptor, status
+      character(:), allocatable, intent(out) :: reason
+      integer(c_int) :: descriptor
       integer(i8) :: taken
+      integer :: ignored
+      logical :: has_disk
 
-      flush (unit, iostat=status)
-      has_size = status == 0
-      if (.not. has_size) return
+      call forget_reason()
+      flush (unit, iostat=ignored)
+      reason = last_reason('')
+      if (reason /= '') return
       descriptor = c_descriptor(int(unit, c_int))
       taken = c_lseek(descriptor, 0_c_long, from_here)
       if (taken >= bytes) return
-      ! Pipes and devices have no places, and nothing that could be brought to a disk; /dev/full takes not even nothing.
-      status = c_fdatasync(descriptor)
-      has_size = status /= 0
-      if (has_size) has_size = c_write(descriptor, c_null_char, 0_c_size_t) == 0
-   end function has_size
+      call bring_to_disk(descriptor, has_disk, reason)
+      if (has_disk .and. reason == '') reason = cut_short
+   end subroutine flush_unit
+
+   !> As `flush_unit`, and what was written is on the disk.
+   subroutine secure_unit(unit, bytes, reason)
+      integer, intent(in) :: unit
+      integer(i8), intent(in) :: bytes   !! written so far
+      character(:), allocatable, intent(out) :: reason
+      logical :: has_disk
+
+      call flush_unit(unit, bytes, reason)
+      if (reason == '') call bring_to_disk(c_descriptor(int(unit, c_int)), has_disk, reason)
+   end subroutine secure_unit
+
+   ! What an open file has taken is on the disk then. Pipes and devices have none; they are asked whether they take anything:
+   ! /dev/full takes not even nothing.
+   subroutine bring_to_disk(descriptor, has_disk, reason)
+      integer(c_int), intent(in) :: descriptor
+      logical, intent(out) :: has_disk
+      character(:), allocatable, intent(out) :: reason
+      integer(c_int), parameter :: no_disk = 22   ! EINVAL of Linux
+
+      call forget_reason()
+      reason = reason_of(c_fdatasync(descriptor))
+      has_disk = last_number() /= no_disk
+      if (.not. has_disk) reason = reason_of(int(c_write(descriptor, c_null_char, 0_c_size_t), c_int))
+   end subroutine bring_to_disk
 
    !> The place of a file that was opened to be appended to: gfortran goes there with the first row only, and until then the file
    !! would seem to have lost what is in it.
@@ -378,29 +393,6 @@ contains
 
       ignored = c_lseek(c_descriptor(int(unit, c_int)), 0_c_long, from_end)
    end subroutine seek_end
-
-   !> As `has_size`, and what was written is on the disk.
-   logical function secure_unit(unit, bytes)
-      integer, intent(in) :: unit
-      integer(i8), intent(in) :: bytes   !! written so far
-
-      secure_unit = has_size(unit, bytes)
-      if (secure_unit) secure_unit = c_fdatasync(c_descriptor(int(unit, c_int))) == 0
-   end function secure_unit
-
-   !> The system's words for the call that returned this status; '' for success.
-   function reason_of(status) result(reason)
-      integer(c_int), intent(in) :: status
-      character(:), allocatable :: reason
-      integer(c_int), pointer :: number
-
-      if (status == 0) then
-         reason = ''
-         return
-      end if
-      call c_f_pointer(c_errno_address(), number)
-      reason = fortran_text(c_strerror(number))
-   end function reason_of
 
    !> A path in which no character is special to glob().
    pure function literal(path)
@@ -421,18 +413,5 @@ contains
 
       c_text = trim(text)//c_null_char
    end function c_text
-
-   function fortran_text(address) result(text)
-      type(c_ptr), intent(in) :: address
-      character(:), allocatable :: text
-      character(kind=c_char), pointer :: bytes(:)
-      integer :: i
-
-      call c_f_pointer(address, bytes, [c_strlen(address)])
-      allocate (character(size(bytes)) :: text)
-      do i = 1, size(bytes)
-         text(i:i) = bytes(i)
-      end do
-   end function fortran_text
 
 end module file_system

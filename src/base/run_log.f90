@@ -5,7 +5,10 @@ module run_log
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: exit_files, failure
+   use file_system, only: file_bytes, flush_unit, secure_unit, seek_end
    use growing_text, only: growing_text_t
+   use kinds, only: i8
+   use standard_output, only: check_screen
    implicit none
    private
 
@@ -28,10 +31,15 @@ module run_log
    type :: log_t
       private
       integer :: unit = no_unit
+      character(:), allocatable :: path
+      integer(i8) :: bytes = 0               !! that the file must have by now
+      character(:), allocatable :: lost      !! why some of it could not be written; not allocated while all was
       logical :: quiet = .false.             !! nothing on standard output
       logical :: terminal = .false.          !! standard output is a terminal
       logical :: unicode = .false.           !! the user's locale is UTF-8
       logical :: transient_shown = .false.   !! the cursor stands in a transient line
+      logical :: blind = .false.             !! standard output cannot be written any more,
+      character(:), allocatable :: blindness !! for this reason
       type(tally_t), allocatable :: tallies(:)
       type(growing_text_t) :: early          !! what the file will begin with
    contains
@@ -79,10 +87,15 @@ contains
       integer :: status
 
       before = self%early%text()
+      self%path = trim(path)
+      self%bytes = 0
       open (newunit=self%unit, file=path, status=merge('unknown', 'replace', goes_on), position='append', action='write', &
          iostat=status, iomsg=message)
       if (status == 0) then
+         if (goes_on) self%bytes = max(0_i8, file_bytes(path))
+         call seek_end(self%unit)
          if (len(before) > 0) call to_file(self, before(:len(before) - 1))
+         if (self%blind) call complain_of_blindness(self)
          return
       end if
       self%unit = no_unit
@@ -121,8 +134,7 @@ contains
       character(*), intent(in) :: text
 
       if (self%quiet .or. .not. self%terminal) return
-      write (output_unit, '(a)', advance='no') return_and_clear//wrap_off//text//wrap_on
-      flush (output_unit)
+      call show(self, return_and_clear//wrap_off//text//wrap_on)
       self%transient_shown = .true.
    end subroutine transient
 
@@ -200,12 +212,21 @@ contains
       end do
    end subroutine report_warnings
 
-   subroutine close_log(self)
+   !> Ends the file, which is on the disk then. Raises exit_files if a part of it could not be written.
+   subroutine close_log(self, problem)
       class(log_t), intent(inout) :: self
+      type(failure), intent(inout), optional :: problem
+      character(:), allocatable :: reason
+      integer :: ignored
 
       call clear_transient(self)
-      if (self%unit /= no_unit) close (self%unit)
+      if (self%unit == no_unit) return
+      call secure_unit(self%unit, self%bytes, reason)
+      if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
+      close (self%unit, iostat=ignored)
       self%unit = no_unit
+      if (.not. (present(problem) .and. allocated(self%lost))) return
+      call problem%raise(exit_files, "cannot write the log '"//self%path//"': "//self%lost)
    end subroutine close_log
 
    !> True when transient lines are shown.
@@ -230,14 +251,48 @@ contains
       character(*), intent(in) :: text
 
       call clear_transient(self)
-      write (unit, '(a)') text
-      flush (unit)
+      if (unit == output_unit) then
+         call show(self, text//new_line('a'))
+      else
+         call complain(text)
+      end if
    end subroutine to_screen
 
-   !> A log that cannot be written on (a full disk) does not end the run: its results will.
+   !> Writes to standard output. A run that has lost it says so once, and goes on: its log has the same lines.
+   subroutine show(self, text)
+      class(log_t), intent(inout) :: self
+      character(*), intent(in) :: text   !! with its line ends
+      type(failure) :: problem
+      integer :: ignored
+
+      if (self%blind) return
+      write (output_unit, '(a)', advance='no', iostat=ignored) text
+      call check_screen(problem)
+      self%blind = problem%raised()
+      if (.not. self%blind) return
+      self%blindness = problem%message
+      if (self%unit /= no_unit) call complain_of_blindness(self)
+   end subroutine show
+
+   subroutine complain_of_blindness(self)
+      class(log_t), intent(in) :: self
+
+      call complain('warning: '//self%blindness//"; the run goes on, and '"//self%path//"' has what it says")
+   end subroutine complain_of_blindness
+
+   subroutine complain(text)
+      character(*), intent(in) :: text
+      integer :: ignored
+
+      write (error_unit, '(a)', iostat=ignored) text
+      flush (error_unit, iostat=ignored)
+   end subroutine complain
+
+   !> A log that cannot be written on (a full disk) does not end the run at once: its results may.
    subroutine to_file(self, text)
       class(log_t), intent(inout) :: self
       character(*), intent(in) :: text
+      character(:), allocatable :: reason
       integer :: ignored
 
       if (self%unit == no_unit) then
@@ -245,15 +300,16 @@ contains
          return
       end if
       write (self%unit, '(a)', iostat=ignored) text
-      flush (self%unit, iostat=ignored)
+      self%bytes = self%bytes + len(text) + 1
+      call flush_unit(self%unit, self%bytes, reason)
+      if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
    end subroutine to_file
 
    subroutine clear_transient(self)
       class(log_t), intent(inout) :: self
 
       if (.not. self%transient_shown) return
-      write (output_unit, '(a)', advance='no') return_and_clear
-      flush (output_unit)
+      call show(self, return_and_clear)
       self%transient_shown = .false.
    end subroutine clear_transient
 

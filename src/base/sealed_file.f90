@@ -6,6 +6,7 @@
 module sealed_file
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: i8
+   use system_words, only: forget_reason, last_reason
    implicit none
    private
 
@@ -38,6 +39,12 @@ contains
       if (status == 0) then
          found = checksum(unit)   ! not within the statement: it reads the same unit
          write (unit, pos=1, iostat=status, iomsg=message) sign//found
+      end if
+      if (status == 0) then
+         call forget_reason()
+         flush (unit)
+         message = last_reason('')
+         status = len_trim(message)
       end if
       close (unit)
    end subroutine seal_file

@@ -17,6 +17,7 @@ module hdf5_writer
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
    use sealed_file, only: seal_bytes, seal_file
+   use system_words, only: forget_reason, last_reason
    implicit none
    private
 
@@ -29,7 +30,8 @@ module hdf5_writer
       private
       integer(hid_t) :: file = -1
       logical :: failed = .false.
-      character(:), allocatable :: path, failed_at
+      character(:), allocatable :: path
+      character(:), allocatable :: failed_at, reason   !! where, and the system's words
       character(:), allocatable :: seal   !! words of the seal; not allocated for a file without one
    contains
       procedure :: create
@@ -73,6 +75,7 @@ contains
 
       self%path = trim(path)
       self%failed = .false.
+      call forget_reason()
       call open_library(status)
       call note(self, status, 'the HDF5 library')
       ! Headers of this form have checksums; HDF5 1.10 (2016) and newer read them.
@@ -311,7 +314,7 @@ contains
          if (.not. problem%raised()) return
       else
          call problem%raise(exit_files, "cannot write '"//self%path//"' (at "//self%failed_at// &
-            '): is there space left, and may you write there?')
+            '): '//self%reason)
       end if
       call delete_file(partial_path(self%path), ignored)
    end subroutine finish
@@ -328,6 +331,7 @@ contains
       if (self%failed) return
       call secure_path(partial_path(self%path), reason)
       call note(self, merge(0, -1, reason == ''), 'its checksum')
+      if (reason /= '') self%reason = reason
    end subroutine close_seal
 
    !> Writes one dataset without compression, which would take longer than the step.
@@ -403,15 +407,20 @@ contains
       call h5sclose_f(space, ignored)
    end subroutine put_attribute
 
-   !> Remembers the first call that failed.
+   !> Remembers the first call that failed, and what the system had to say.
    subroutine note(self, status, place)
       class(hdf5_writer_t), intent(inout) :: self
       integer, intent(in) :: status
       character(*), intent(in) :: place
 
-      if (status >= 0 .or. self%failed) return
+      if (self%failed) return
+      if (status >= 0) then
+         call forget_reason()   ! what HDF5 tried in vain and did without
+         return
+      end if
       self%failed = .true.
       self%failed_at = place
+      self%reason = last_reason('HDF5 could not')
    end subroutine note
 
 end module hdf5_writer

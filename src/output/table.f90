@@ -5,7 +5,7 @@
 module table
    use archive, only: archive_t
    use errors, only: exit_files, failure
-   use file_system, only: file_bytes, has_size, no_space, secure_unit, seek_end, shorten_file
+   use file_system, only: file_bytes, flush_unit, path_exists, secure_unit, seek_end, shorten_file
    use kinds, only: dp, i8
    use timers, only: wall_seconds
    implicit none
@@ -25,6 +25,7 @@ module table
       integer(i8) :: row_bytes = 0
       integer(i8) :: bytes = 0          !! that the file must have by now
       real(dp) :: last_flush = 0.0_dp   !! (not kept: of the clock)
+      logical :: failed = .false.       !! and that was told (not kept: the run ends)
       character(:), allocatable :: path !! (not kept: a directory may be renamed)
    contains
       procedure :: create
@@ -171,18 +172,21 @@ contains
       class(table_t), intent(inout) :: self
       type(failure), intent(inout) :: problem   !! exit_files: the disk is full
 
+      character(:), allocatable :: reason
+
       if (self%unit == no_unit) return
-      if (.not. secure_unit(self%unit, self%bytes)) call problem%raise(exit_files, "cannot write '"//self%path//"': "//no_space)
+      call secure_unit(self%unit, self%bytes, reason)
+      call tell(self, reason, problem)
    end subroutine secure
 
-   !> Ends a table; one that is not open is left alone.
+   !> Ends a table, which is on the disk then; one that is not open is left alone.
    subroutine close_table(self, problem)
       class(table_t), intent(inout) :: self
       type(failure), intent(inout) :: problem   !! exit_files: the disk is full
       integer :: ignored
 
       if (self%unit == no_unit) return
-      call flush_now(self, wall_seconds(), problem)
+      call self%secure(problem)
       close (self%unit, iostat=ignored)
       self%unit = no_unit
    end subroutine close_table
@@ -198,11 +202,26 @@ contains
       class(table_t), intent(inout) :: self
       real(dp), intent(in) :: now   !! [s]
       type(failure), intent(inout) :: problem
+      character(:), allocatable :: reason
 
-      if (.not. has_size(self%unit, self%bytes)) call problem%raise(exit_files, &
-         "cannot write '"//self%path//"': "//no_space)
+      call flush_unit(self%unit, self%bytes, reason)
+      call tell(self, reason, problem)
       self%last_flush = now
    end subroutine flush_now
+
+   ! What is wrong, once, if anything is. Rows of a file without a name would be lost at the end of the run.
+   subroutine tell(self, reason, problem)
+      class(table_t), intent(inout) :: self
+      character(*), intent(in) :: reason   !! of the system; '' if it took all
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: words
+
+      words = reason
+      if (words == '' .and. .not. path_exists(self%path)) words = 'it was removed or renamed meanwhile'
+      if (words == '' .or. self%failed) return
+      self%failed = .true.
+      call problem%raise(exit_files, "cannot write '"//self%path//"': "//words)
+   end subroutine tell
 
    !> A column name above the last digit of its numbers; the first column begins with blanks too.
    pure function right_aligned(name) result(cell)

@@ -29,7 +29,7 @@ resume_refused(a_table_that_was_not "output.energy = 'never' .was '1 steps'.: on
 resume_refused(another_body_in_a_fork "body.1..pressure = 'zero' .was 'hydrostatic'.: the particles of the checkpoint are of the old one"
    --fork fork --set "body(1).pressure=zero")
 add_test(NAME a_fork_may_change_more COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--resume;with_stop;--fork;forked;--set;fluid.gravity=2;--set;time.max_steps=60;--set;output.energy=1 steps"
+   "-DCOMMAND=${with_one};--resume;with_stop;--fork;forked;--overwrite;--set;fluid.gravity=2;--set;time.max_steps=60;--set;output.energy=1 steps"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=changed: fluid.gravity = 2.0 .was 1.0." "-DCREATED=forked/summary.txt" -P ${run_and_expect})
 set_tests_properties(a_fork_may_change_more PROPERTIES FIXTURES_REQUIRED "stopped_result;resumed_result" FIXTURES_SETUP forked_result TIMEOUT 60)
 add_test(NAME a_fork_says_where_it_is_from COMMAND ${CMAKE_COMMAND} "-DCOMMAND=grep;Forked from with_stop at step;forked/input_used.nml;forked/summary.txt"

@@ -10,9 +10,10 @@
 program snapshot_to_text
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_files, exit_input, failure
-   use file_system, only: has_size, no_space
+   use file_system, only: secure_unit
    use hdf5_reader, only: hdf5_reader_t, name_length, numbers
    use kinds, only: dp, i8
+   use standard_output, only: errors_for_signals
    implicit none
 
    type :: column_t
@@ -28,6 +29,7 @@ program snapshot_to_text
       call problem%raise(exit_input, 'usage: dynsph-snapshot-to-text SNAPSHOT.vtkhdf [TABLE.txt]')
       call end_program(problem)
    end if
+   call errors_for_signals(pipes=.false.)
    call file%open(argument(1), problem)
    if (.not. problem%raised()) call read_columns(file, columns, problem)
    if (.not. problem%raised()) call write_table(file, columns, problem)
@@ -94,6 +96,7 @@ contains
       type(column_t), intent(in) :: columns(:)
       type(failure), intent(inout) :: problem   !! exit_files: cannot be written
       character(256) :: message
+      character(:), allocatable :: reason, where
       character((2 + name_length)*size(columns) + 100) :: line
       integer(i8) :: bytes
       integer :: i, k, status, unit
@@ -126,12 +129,13 @@ contains
          call put(unit, trim(line), bytes, status, message)
       end do
       if (status == 0) then
-         if (.not. has_size(unit, bytes)) then
-            status = 1
-            message = no_space
-         end if
+         call secure_unit(unit, bytes, reason)
+         status = len(reason)
+         message = reason
       end if
-      if (status /= 0) call problem%raise(exit_files, 'cannot write the table: '//trim(message))
+      where = 'to standard output'
+      if (command_argument_count() == 2) where = "'"//argument(2)//"'"
+      if (status /= 0) call problem%raise(exit_files, 'cannot write '//where//': '//trim(message))
    end subroutine write_table
 
    ! A line, and its bytes.

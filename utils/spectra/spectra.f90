@@ -4,6 +4,7 @@ program spectra
    use errors, only: end_program, exit_input, failure
    use probe_command, only: run_probe_command
    use program_arguments, only: take_arguments
+   use standard_output, only: check_screen, errors_for_signals
    use text, only: quoted
    use vorticity_command, only: run_vorticity_command
    use waiting, only: sleep_while_waiting
@@ -14,6 +15,7 @@ program spectra
    character(16) :: command
 
    call sleep_while_waiting()
+   call errors_for_signals(pipes=.false.)
    call take_arguments(arguments, from=2)
    command = '--help'
    if (command_argument_count() > 0) call get_command_argument(1, command)
@@ -30,6 +32,7 @@ program spectra
    case default
       call problem%raise(exit_input, 'dynsph-spectra: there is no '//quoted(trim(command))//'; commands are vorticity and probe')
    end select
+   if (.not. problem%raised()) call check_screen(problem)
    call end_program(problem)
 
 end program spectra
