@@ -8,6 +8,7 @@ program main
    use lanes, only: how_chosen, nl, root_name
    use model, only: model_t
    use preliminary, only: preliminary_text
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use report, only: start_box
    use resumed_run, only: resume_run
@@ -21,14 +22,13 @@ program main
    use solution_register, only: solutions_t
    use text, only: to_text
    use threads, only: limit_threads
-   use waiting, only: sleep_while_waiting
    implicit none
 
    type(command_line_t) :: options
    type(failure) :: problem
    character(:), allocatable :: arguments(:)
 
-   call sleep_while_waiting()
+   call start_process()
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
