@@ -8,6 +8,7 @@ module file_system
    use errors, only: exit_files, failure
    use growing_text, only: growing_text_t
    use kinds, only: i8
+   use text, only: to_text
    implicit none
    private
 
@@ -15,6 +16,7 @@ module file_system
       path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
+   integer, parameter, public :: longest_text = 10**8  !! letters of a file that is read as a whole
    character(*), parameter, public :: no_space = 'no space left on the disk'
 
    integer(c_int), parameter :: mode_exists = 0, mode_write_search = 3   !! for access()
@@ -322,29 +324,40 @@ contains
    !> Reads the text of a whole file, or all that a pipe gives.
    subroutine read_whole_file(path, content, problem)
       character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: content
+      character(:), allocatable, intent(out) :: content   !! until the first letter 0 of what has no end, such as /dev/zero
       type(failure), intent(inout) :: problem   !! exit_files
-      type(growing_text_t) :: text
+      type(growing_text_t) :: read_so_far
       character :: letter
-      integer :: length, unit, status
+      integer(i8) :: length
+      integer :: unit, status
 
       content = ''
+      length = 0
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         content = repeat(' ', max(0, length))
-         read (unit, iostat=status) content
-         if (status == 0) call text%add(content)
-         ! A pipe does not know how long its text will be.
-         do while (status == 0)
-            read (unit, iostat=status) letter
-            if (status == 0) call text%add(letter)
-         end do
+         if (length <= longest_text) then
+            content = repeat(' ', max(0, int(length)))
+            read (unit, iostat=status) content
+            if (status == 0) call read_so_far%add(content)
+            ! A pipe does not know how long its text will be.
+            letter = ' '
+            do while (status == 0 .and. length <= longest_text .and. letter /= c_null_char)
+               read (unit, iostat=status) letter
+               if (status /= 0) exit
+               call read_so_far%add(letter)
+               length = length + 1
+            end do
+            content = read_so_far%text()
+         end if
          close (unit)
-         content = text%text()
       end if
-      if (.not. is_iostat_end(status)) &
+      if (length > longest_text) then
+         call problem%raise(exit_files, path//': the file has more than '//to_text(longest_text/10**6) &
+                            //' million letters; is it the text that you meant?')
+      else if (status > 0) then
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
+      end if
    end subroutine read_whole_file
 
    !> True when the system has taken all bytes written to a unit. gfortran's FLUSH and CLOSE keep a full disk to themselves, and

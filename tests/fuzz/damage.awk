@@ -19,7 +19,9 @@ BEGIN {
    for (i = first; i < first + count; i++) {
       begin_random(seed, i)
       chosen = target[1 + random(targets)]
-      print i, chosen, damage(size[file[chosen]])
+      line = i " " chosen " " damage(size[file[chosen]])
+      if (file[chosen] == "snapshot") sub(/foreign snapshot/, "foreign checkpoint", line)   # a snapshot would be read, and rightly
+      print line
    }
 }
 
