@@ -8,6 +8,7 @@ program main
    use lanes, only: how_chosen, nl, root_name
    use model, only: model_t
    use preliminary, only: preliminary_text
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use report, only: start_box
    use resumed_run, only: resume_run
@@ -22,14 +23,13 @@ program main
    use standard_output, only: check_screen, errors_for_signals, print_text
    use text, only: to_text
    use threads, only: limit_threads
-   use waiting, only: sleep_while_waiting
    implicit none
 
    type(command_line_t) :: options
    type(failure) :: problem
    character(:), allocatable :: arguments(:)
 
-   call sleep_while_waiting()
+   call start_process()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)

@@ -9,6 +9,7 @@ module file_system
    use growing_text, only: growing_text_t
    use kinds, only: i8
    use system_words, only: c_words, forget_reason, last_number, last_reason, reason_of
+   use text, only: to_text
    implicit none
    private
 
@@ -17,6 +18,7 @@ module file_system
       shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
+   integer, parameter, public :: longest_text = 10**8  !! letters of a file that is read as a whole
    character(*), parameter :: cut_short = 'the system has not taken all of it'
    integer(c_int), parameter :: from_here = 1   !! SEEK_CUR
 
@@ -312,29 +314,40 @@ contains
    !> Reads the text of a whole file, or all that a pipe gives.
    subroutine read_whole_file(path, content, problem)
       character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: content
+      character(:), allocatable, intent(out) :: content   !! until the first letter 0 of what has no end, such as /dev/zero
       type(failure), intent(inout) :: problem   !! exit_files
-      type(growing_text_t) :: text
+      type(growing_text_t) :: read_so_far
       character :: letter
-      integer :: length, unit, status
+      integer(i8) :: length
+      integer :: unit, status
 
       content = ''
+      length = 0
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         content = repeat(' ', max(0, length))
-         read (unit, iostat=status) content
-         if (status == 0) call text%add(content)
-         ! A pipe does not know how long its text will be.
-         do while (status == 0)
-            read (unit, iostat=status) letter
-            if (status == 0) call text%add(letter)
-         end do
+         if (length <= longest_text) then
+            content = repeat(' ', max(0, int(length)))
+            read (unit, iostat=status) content
+            if (status == 0) call read_so_far%add(content)
+            ! A pipe does not know how long its text will be.
+            letter = ' '
+            do while (status == 0 .and. length <= longest_text .and. letter /= c_null_char)
+               read (unit, iostat=status) letter
+               if (status /= 0) exit
+               call read_so_far%add(letter)
+               length = length + 1
+            end do
+            content = read_so_far%text()
+         end if
          close (unit)
-         content = text%text()
       end if
-      if (.not. is_iostat_end(status)) &
+      if (length > longest_text) then
+         call problem%raise(exit_files, path//': the file has more than '//to_text(longest_text/10**6) &
+                            //' million letters; is it the text that you meant?')
+      else if (status > 0) then
          call problem%raise(exit_files, path//': the file cannot be read; is it a text file that you may read?')
+      end if
    end subroutine read_whole_file
 
    !> Hands what was written to a unit to the system. gfortran's WRITE, FLUSH and CLOSE keep a full disk to themselves, and INQUIRE

@@ -36,16 +36,19 @@ contains
    !!
    !! The library reads it before the program begins, so there is no other way from inside. Where the program cannot be started
    !! anew, it goes on as it is. To be called first of all.
-   subroutine sleep_while_waiting()
+   subroutine sleep_while_waiting(anew)
+      logical, intent(in), optional :: anew   !! start it anew in any case: something else is other now
       character(kind=c_char), allocatable, target :: words(:, :)
       type(c_ptr), allocatable :: arguments(:)
       character(kind=c_char) :: path(4096)
       character(:), allocatable :: word
       integer :: k, n, longest, length
       integer(c_int) :: status
+      logical :: settled
 
-      if (is_set('OMP_WAIT_POLICY')) return
-      if (is_set('GOMP_SPINCOUNT')) return
+      settled = is_set('OMP_WAIT_POLICY') .or. is_set('GOMP_SPINCOUNT')
+      if (present(anew)) settled = settled .and. .not. anew
+      if (settled) return
       n = command_argument_count()
       longest = 0
       do k = 0, n
@@ -61,7 +64,8 @@ contains
          arguments(k) = c_loc(words(1, k))
       end do
       arguments(n + 1) = c_null_ptr
-      status = setenv('GOMP_SPINCOUNT'//c_null_char, '10000'//c_null_char, 0_c_int)
+      status = 0
+      if (.not. is_set('OMP_WAIT_POLICY')) status = setenv('GOMP_SPINCOUNT'//c_null_char, '10000'//c_null_char, 0_c_int)
       ! The name of the link would be the process's name.
       path = c_null_char
       if (readlink('/proc/self/exe'//c_null_char, path, size(path, kind=c_size_t) - 1) <= 0) return

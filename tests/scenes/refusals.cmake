@@ -61,6 +61,21 @@ add_test(NAME too_much_memory COMMAND ${CMAKE_COMMAND}
    "-DNOT_CREATED=large" -P ${run_and_expect})
 set_tests_properties(too_much_memory PROPERTIES TIMEOUT 30)
 
+# A stack that is too small is raised or refused, and so many threads as no machine has are not made:
+# limited(name status "limits of the shell" "message").
+function(limited name status limits message)
+   add_test(NAME ${name} COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=sh;-c;${limits} exec $<TARGET_FILE:dynsph> --quiet --overwrite --output ${name} --set scene.resolution=40 --set time.max_steps=2 ${dam_break}"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=${status} "-DEXPECT=${message}" -P ${run_and_expect})
+   set_tests_properties(${name} PROPERTIES TIMEOUT 60)
+endfunction()
+set(small_stack "ulimit -S -s 64 && OMP_NUM_THREADS=2")
+limited(tiny_stack 3 "ulimit -s 64 &&" "the stack is limited to 64 kB, and dynsph needs 512: say 'ulimit -s 8192'")
+limited(tiny_stack_of_threads 3 "OMP_STACKSIZE=16k" "a stack of OMP_STACKSIZE = '16k', which is too small: .* 512k or more")
+limited(tiny_stack_that_can_be_raised 0 "${small_stack}" "max_steps = 2")
+limited(tiny_stack_of_spinning_threads 0 "${small_stack} GOMP_SPINCOUNT=1000" "max_steps = 2")
+limited(absurdly_many_threads 0 "OMP_NUM_THREADS=200000000" "asks for 200000000 threads.*max_steps = 2")
+
 # A run that fails leaves its last good state, once: here a particle gets too far away for the strips in step 7.
 add_test(NAME leaves_box_runs COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--quiet;--set;domain.right=open;--set;domain.upper=399999,1.5;--set;fluid.gravity=0;--set;body(1).lower=399997.7,0;--set;body(1).upper=399997.8,0.1;--set;body(1).velocity=20,0;--set;body(1).pressure=zero;--set;body(2).pressure=zero;--set;fluid.mach=0.1;--set;output.snapshots=3 steps;--set;output.energy=3 steps;--output;leaves_box;${scenes}/still_layers.nml"

@@ -3,18 +3,18 @@ program spectra
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: end_program, exit_input, failure
    use probe_command, only: run_probe_command
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use standard_output, only: check_screen, errors_for_signals
    use text, only: quoted
    use vorticity_command, only: run_vorticity_command
-   use waiting, only: sleep_while_waiting
    implicit none
 
    type(failure) :: problem
    character(:), allocatable :: arguments(:)   ! behind the command
    character(16) :: command
 
-   call sleep_while_waiting()
+   call start_process()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments, from=2)
    command = '--help'

@@ -2,7 +2,7 @@
 module text_table_reader
    use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
    use errors, only: exit_files, failure
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use text, only: lower_case, parse_real, quoted, to_text
    implicit none
    private
@@ -77,19 +77,25 @@ contains
       character(:), allocatable, intent(out) :: content
       type(failure), intent(inout) :: problem
       character(256) :: message
-      integer :: length, status, unit
+      integer(i8) :: length
+      integer :: status, unit
 
       content = ''
+      length = 0
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status, &
          iomsg=message)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         content = repeat(' ', max(0, length))
-         read (unit, iostat=status, iomsg=message) content
+         if (length <= huge(status)) then
+            content = repeat(' ', max(0, int(length)))
+            read (unit, iostat=status, iomsg=message) content
+         end if
          close (unit)
       end if
       if (status /= 0) then
          call problem%raise(exit_files, "cannot read '"//path//"': "//trim(message))
+      else if (length > huge(status)) then
+         call problem%raise(exit_files, path//': the table has more than 2 GB; cut it into parts, each with the head')
       else if (len(content) == 0) then
          call problem%raise(exit_files, path//': the file is empty')
       end if
