@@ -185,7 +185,7 @@ contains
       call refresh(variant%model, p, near, run, timers)
       call variant%directory%clear(problem)
       call variant%recorder%start(variant%scene, '', variant%model, p)
-      call variant%recorder%open(variant%scene, variant%directory, problem)
+      call variant%recorder%open(variant%scene, variant%directory, only_check=.false., problem=problem)
    end subroutine open_tables
 
    subroutine measure()

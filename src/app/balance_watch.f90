@@ -16,7 +16,7 @@ module balance_watch
 
 contains
 
-   !> Raises exit_numerics if the balance is beyond the limit.
+   !> Raises exit_numerics if the balance of the base state is beyond the limit.
    !!
    !! In runs that go well it misses up to 0.02, in the impact of rectangles, which is over in few steps, 2.5/(d/dx); so 0.5, the
    !! default, is passed only by what goes wrong (docs/reliability.md).

@@ -27,6 +27,7 @@ module checkpoints
       type(cadence_t), private :: when
       real(dp), private :: last = 0         ! [s] of the clock
       integer, private :: turn = 1          ! which file comes next
+      integer(i8), private :: number = 0    ! of those written before
       logical, private :: due = .false.
    contains
       procedure :: start
@@ -37,18 +38,22 @@ module checkpoints
 
 contains
 
-   !> Sets out, with `turn` the file that is written first.
-   subroutine start(self, scene, input, origin, turn)
+   !> Sets out, with `turn` the file that is written first. The first checkpoint comes with the first steps: then a run that has
+   !! none has nothing to lose.
+   subroutine start(self, scene, input, origin, turn, number)
       class(checkpoints_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       character(*), intent(in) :: input, origin
       integer, intent(in) :: turn
+      integer(i8), intent(in) :: number   !! of those that the run has written before
       character(:), allocatable :: ignored
 
       call self%when%parse(trim(scene%output%checkpoint), ignored, by_clock=.true.)
       self%input = input
       self%origin = origin
       self%turn = turn
+      self%number = number
+      self%due = number == 0 .and. .not. self%when%is_never()
       self%last = wall_seconds()
    end subroutine start
 
@@ -89,19 +94,18 @@ contains
       if (scene%time%max_steps > 0) ends_soon = ends_soon .or. scene%time%max_steps - state%step%step <= last_steps
    end function ends_soon
 
-   !> Writes the state, which is about to be sorted, with all tables until here.
-   subroutine write_checkpoint(self, model, state, directory, problem)
+   !> Writes the state, which is about to be sorted as planned, with all tables and snapshots until here.
+   subroutine write_checkpoint(self, state, directory, problem)
       class(checkpoints_t), intent(inout) :: self
-      type(model_t), intent(in) :: model
       type(run_state_t), intent(inout) :: state
       type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem   !! exit_files
       type(checkpoint_file_t) :: file
       character(:), allocatable :: ignored
 
-      call state%recorder%secure(problem)
+      call state%recorder%secure(directory, problem)
       if (problem%raised()) return
-      state%plan = plan_next(model, state%near, state%step)
+      file%number = self%number
       file%input = self%input
       file%origin = self%origin
       file%particles = int(state%p%n, i8)
@@ -113,6 +117,7 @@ contains
       if (problem%raised()) return
       call secure_path(directory%path, ignored)   ! some file systems cannot
       self%turn = 3 - self%turn
+      self%number = self%number + 1
       self%due = .false.
       self%last = wall_seconds()
    end subroutine write_checkpoint
@@ -136,7 +141,7 @@ contains
          call candidate%open(trim(path), reason)
          if (reason /= '') then
             remarks = remarks//"'"//trim(path)//"' cannot be used: "//reason//new_line('a')
-         else if (turn > 0 .and. candidate%step < file%step) then
+         else if (turn > 0 .and. candidate%number < file%number) then
             call candidate%close()
          else
             call file%close()

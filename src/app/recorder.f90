@@ -8,6 +8,7 @@ module recorder
    use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
+   use file_system, only: secure_path
    use gauges, only: gauge_t, measure_gauge, new_gauge
    use gradient_fields, only: gradient_fields_t, gradient_numbers_t, measure_gradients, sum_up
    use box, only: bottom_wall, left_wall, right_wall
@@ -42,6 +43,7 @@ module recorder
       type(time_scale_t) :: scale                 !! (not kept: of the scene)
       real(dp) :: probe_box(2) = 0     !! width of the box and height of the fluid at t = 0, for spectra (not kept: of the scene)
       type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks (not kept: measured before each use)
+      integer :: secured = 0           !! snapshots that are on the disk (not kept: of the process)
       real(dp) :: times(2) = 0         !! of the step before and of the last one recorded,
       integer :: step = -1             !! and its number
    contains
@@ -71,6 +73,7 @@ contains
       call file%part('recorded')
       call file%keep('times', self%times)
       call file%keep('step', self%step)
+      if (file%reading) self%secured = self%series%count()
    end subroutine archive_recorder
 
    !> Forgets which files there were: the run goes on in another directory.
@@ -119,23 +122,18 @@ contains
       call self%errors%start(scene, model, p, self%scale)
    end subroutine start
 
-   !> Opens the tables that the scene asks for; those that were begun go on, if all of them can.
-   subroutine open_tables(self, scene, directory, problem)
+   !> Opens the tables that the scene asks for, or looks whether those that were begun can go on.
+   subroutine open_tables(self, scene, directory, only_check, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(result_directory_t), intent(in) :: directory
+      logical, intent(in) :: only_check
       type(failure), intent(inout) :: problem   !! exit_files
-      logical :: only_check
-      integer :: pass
 
-      do pass = 1, 2
-         only_check = pass == 1
-         if (problem%raised()) return
-         if (.not. self%when_energy%is_never()) call open_energies(self, scene, directory, only_check, problem)
-         if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
-            call open_probes(self, scene, directory, only_check, problem)
-         call self%errors%open(scene, directory%file(errors_name), only_check, problem)
-      end do
+      if (.not. self%when_energy%is_never()) call open_energies(self, scene, directory, only_check, problem)
+      if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
+         call open_probes(self, scene, directory, only_check, problem)
+      call self%errors%open(scene, directory%file(errors_name), only_check, problem)
    end subroutine open_tables
 
    subroutine open_energies(self, scene, directory, only_check, problem)
@@ -305,11 +303,19 @@ contains
       call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
 
-   !> All rows so far are on the disk.
-   subroutine secure(self, problem)
+   !> All rows and snapshots so far are on the disk.
+   subroutine secure(self, directory, problem)
       class(recorder_t), intent(inout) :: self
+      type(result_directory_t), intent(in) :: directory
       type(failure), intent(inout) :: problem   !! exit_files
+      character(:), allocatable :: ignored
+      integer :: k
 
+      ! One that the user has taken away is no failure.
+      do k = self%secured, self%series%count() - 1
+         call secure_path(directory%snapshot_path(k), ignored)
+      end do
+      self%secured = self%series%count()
       call self%energy_table%secure(problem)
       call self%probe_table%secure(problem)
       call self%errors%secure(problem)

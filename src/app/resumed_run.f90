@@ -1,11 +1,12 @@
 !> A run that goes on from its latest checkpoint, in its own directory or, changed, in another.
 module resumed_run
    use build_info, only: git_id, version
+   use cadence, only: cadence_t
    use changed_keys, only: change_t, list_changes
    use checkpoints, only: latest_checkpoint
    use command_line, only: command_line_t
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: path_exists, read_whole_file
+   use file_system, only: path_exists, read_whole_file, same_place
    use key_writer, only: complete_input
    use result_directory, only: input_name, result_directory_t, summary_name
    use run_log, only: log_t
@@ -15,7 +16,7 @@ module resumed_run
    use settings, only: settings_t
    use simulation, only: beginning_t, simulate
    use solution_register, only: solutions_t
-   use text, only: short, to_text
+   use text, only: has_control_characters, short, to_text
    implicit none
    private
 
@@ -35,7 +36,7 @@ contains
       character(:), allocatable :: input_text, remarks
       logical :: began
 
-      call source%reopen(options%resume, problem)
+      call source%reopen(options%resume, options%fork /= '', problem)
       if (problem%raised()) return
       call latest_checkpoint(source, beginning%file, beginning%turn, remarks)
       if (beginning%turn == 0) then
@@ -45,24 +46,37 @@ contains
       call read_changed(options, beginning, scene, changes, log, problem)
       directory = source
       beginning%forked = options%fork /= ''
-      if (beginning%forked .and. .not. problem%raised()) then
-         ! The source is read only until the particles are there.
-         call directory%prepare(options%fork, options%overwrite, problem)
-         beginning%turn = 0
-         beginning%origin = fork_text(source, beginning)
-      end if
+      if (beginning%forked .and. .not. problem%raised()) call prepare_fork(options, source, beginning, directory, problem)
       began = .false.
       if (.not. problem%raised()) then
          input_text = beginning%input
-         if (beginning%origin /= '') input_text = '! '//beginning%origin//new_line('a')//input_text
+         if (beginning%origin /= '') input_text = '! Forked from '//beginning%origin//new_line('a')//input_text
          call say_where_it_goes_on(log, beginning, remarks, changes)
          call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
          call log%close(problem)
-         if (beginning%forked .and. .not. began) call directory%discard(problem)
-         if (beginning%forked) call directory%release()
       end if
-      call source%release()
+      call beginning%file%close()
+      if (beginning%forked .and. .not. began) call directory%discard(problem)
+      call directory%release()
    end subroutine resume_run
+
+   ! The directory of a fork, which has nothing from where it is from but the state.
+   subroutine prepare_fork(options, source, beginning, directory, problem)
+      type(command_line_t), intent(in) :: options
+      type(result_directory_t), intent(in) :: source
+      type(beginning_t), intent(inout) :: beginning
+      type(result_directory_t), intent(inout) :: directory
+      type(failure), intent(inout) :: problem
+
+      if (same_place(options%fork, source%path)) then
+         call problem%raise(exit_input, "'"//options%fork//"' is the directory of the run itself: leave out --fork, or choose " &
+                            //'another directory')
+         return
+      end if
+      call directory%prepare(options%fork, options%overwrite, problem)
+      beginning%turn = 0
+      beginning%origin = fork_text(source, beginning)
+   end subroutine prepare_fork
 
    ! The scene of a checkpoint with the changes that are asked for.
    subroutine read_changed(options, beginning, scene, changes, log, problem)
@@ -82,10 +96,16 @@ contains
          beginning%input = complete_input(solutions_t(), scene)
          call list_changes(file%input, beginning%input, changes)
          call check_changes(changes, options%fork /= '', problem)
-         if (scene%time%end_time <= file%time) call problem%raise(exit_input, 'the checkpoint is of t = '//short(file%time) &
-            //', and the run shall end at t = '//short(scene%time%end_time)//': give a later end with --set time.end_time=T')
+         if (scene%time%end_time <= file%time) call problem%raise(exit_input, 'the checkpoint is of t = '//to_text(file%time) &
+            //', and the run shall end at t = '//to_text(scene%time%end_time)//': give a later end with --set time.end_time=T')
+         if (scene%time%max_steps > 0 .and. scene%time%max_steps <= file%step) call problem%raise(exit_input, &
+            'the checkpoint is of step '//to_text(file%step)//', and the run shall end after '//to_text(scene%time%max_steps) &
+            //': give a larger number with --set time.max_steps=N, or 0')
+         if (scene%fluid%find_reference_speed) call problem%raise(exit_input, &
+            "reference_speed = 'auto' is found at the beginning of a run: give it a number")
          beginning%origin = file%origin
       end associate
+      beginning%changed = size(changes) > 0
       call log%open(options%quiet)
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
@@ -117,9 +137,20 @@ contains
       type(beginning_t), intent(in) :: beginning
       character(:), allocatable :: words
 
-      words = 'Forked from '//source%path//' at step '//to_text(beginning%file%step)//', t = '//to_text(beginning%file%time)
-      if (beginning%origin /= '') words = words//'. '//beginning%origin
+      words = on_one_line(source%path)//' at step '//to_text(beginning%file%step)//', t = '//to_text(beginning%file%time)
+      if (beginning%origin /= '') words = words//', which was forked from '//beginning%origin
    end function fork_text
+
+   pure function on_one_line(path) result(line)
+      character(*), intent(in) :: path
+      character(len(path)) :: line
+      integer :: i
+
+      line = path
+      do i = 1, len(line)
+         if (has_control_characters(line(i:i))) line(i:i) = '?'
+      end do
+   end function on_one_line
 
    subroutine say_where_it_goes_on(log, beginning, remarks, changes)
       type(log_t), intent(inout) :: log
@@ -139,36 +170,59 @@ contains
       end do
    end subroutine say_where_it_goes_on
 
-   ! A run that was broken off before its first checkpoint has lost nothing but the minutes until then.
+   ! A run that was broken off before its first checkpoint, which comes with the first steps, has lost nothing. Where there are
+   ! more results than that somebody has taken the checkpoints away, and they are not touched.
    subroutine begin_again(options, directory, remarks, problem)
       type(command_line_t), intent(in) :: options
       type(result_directory_t), intent(inout) :: directory   !! on return given free
       character(*), intent(in) :: remarks
       type(failure), intent(inout) :: problem
+      integer, parameter :: later_snapshot = 12   ! none of the first steps
       type(command_line_t) :: anew
       type(settings_t) :: scene
+      type(change_t), allocatable :: changes(:)
       character(:), allocatable :: content, warnings(:)
-      logical :: begun, ended
+      type(cadence_t) :: when
+      logical :: begun, later
 
       begun = path_exists(directory%file(input_name))
-      ended = path_exists(directory%file(summary_name))
+      later = path_exists(directory%file(summary_name))
+      if (.not. later) later = path_exists(directory%snapshot_path(later_snapshot))
       content = ''
-      if (begun .and. .not. ended .and. options%fork == '' .and. remarks == '') &
+      if (begun .and. .not. later .and. options%fork == '' .and. remarks == '') &
          call read_whole_file(directory%file(input_name), content, problem)
       call directory%release()
       if (problem%raised()) return
-      ! Whether it would have made checkpoints: a long run that made none must not be lost.
-      if (index(content, 'checkpoint = ') == 0 .or. index(content, "checkpoint = 'never'") > 0) then
-         call problem%raise(exit_files, remarks//"there is no checkpoint in '"//directory%path//"' to go on from")
-         return
+      if (index(content, 'checkpoint = ') == 0) content = ''   ! of a version that had none
+      if (content /= '') then
+         call copy_overrides(options, anew)
+         anew%scene = directory%file(input_name)
+         anew%output = directory%path
+         call read_settings_text(content, anew%scene, anew%overrides, solutions_t(), scene, warnings, problem)
+         if (problem%raised()) return
+         call list_changes(content, complete_input(solutions_t(), scene), changes)
+         call check_changes(changes, .false., problem)
+         if (problem%raised()) return
+         call when%parse(trim(scene%output%checkpoint), content, by_clock=.true.)
+         if (.not. when%is_never()) then
+            call run_into_directory(anew, content, scene, warnings, problem)
+            return
+         end if
       end if
-      anew = options
-      anew%scene = directory%file(input_name)
-      anew%output = directory%path
-      anew%overwrite = .true.
-      call read_settings_text(content, anew%scene, anew%overrides, solutions_t(), scene, warnings, problem)
-      if (problem%raised()) return
-      call run_into_directory(anew, content, scene, warnings, problem)
+      call problem%raise(exit_files, remarks//"there is no checkpoint in '"//directory%path//"' to go on from")
    end subroutine begin_again
+
+   ! Component by component: gfortran 12 loses the length of the overrides in an assignment of the whole.
+   subroutine copy_overrides(options, anew)
+      type(command_line_t), intent(in) :: options
+      type(command_line_t), intent(out) :: anew
+
+      anew%fork = ''
+      anew%resume = ''
+      anew%quiet = options%quiet
+      anew%overwrite = .true.
+      allocate (character(len(options%overrides)) :: anew%overrides(size(options%overrides)))
+      anew%overrides(:) = options%overrides
+   end subroutine copy_overrides
 
 end module resumed_run

@@ -1,14 +1,17 @@
 !> A run from its start to its end: refresh neighbours, measure and write what is due, advance.
 module simulation
    use balance_watch, only: watch_balance
+   use box, only: box_t, is_wall
+   use budget, only: begin_balance_anew, works_t
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
    use cost, only: cost_t, estimate_cost
-   use errors, only: exit_files, exit_numerics, exit_stopped, failure
-   use file_system, only: delete_file, path_exists, write_whole_file
-   use kinds, only: dp
+   use errors, only: exit_files, exit_input, exit_numerics, exit_stopped, failure
+   use file_system, only: delete_file, file_bytes, path_exists, write_whole_file
+   use kinds, only: dp, i8
    use limits, only: report_limits, watch_limits
    use model, only: model_t
+   use particles, only: particles_t, swap_states
    use progress, only: progress_t
    use report, only: closing_table, start_box, write_summary_file
    use result_directory, only: input_name, log_name, result_directory_t, series_name, summary_name
@@ -22,7 +25,7 @@ module simulation
    use stopping, only: stopping_t
    use text, only: for_shell, short, to_text
    use threads, only: limit_threads
-   use time_step, only: advance, go_on, refresh, sorts_next
+   use time_step, only: advance, go_on, plan_next, refresh, sorts_next
    use timers, only: timers_t, wall_seconds
    implicit none
    private
@@ -33,8 +36,9 @@ module simulation
    type :: beginning_t
       character(:), allocatable :: input    !! complete input, for the checkpoints; '' where there shall be none
       character(:), allocatable :: origin   !! where it was forked from; '' if it was not
-      integer :: turn = 0                   !! which checkpoint of the directory it goes on from; 0: it begins at t = 0
-      logical :: forked = .false.           !! it goes on in another directory
+      integer :: turn = 0                   !! which checkpoint of the directory it goes on from; 0: it begins there
+      logical :: forked = .false.           !! it goes on from another directory
+      logical :: changed = .false.          !! the input is not that of the checkpoint
       type(checkpoint_file_t) :: file       !! open, where it does not begin at t = 0
    end type beginning_t
 
@@ -74,14 +78,16 @@ contains
       call timers%initialise(phases)
       call set_up(scene, model, input_text, beginning, state, timers, problem)
       if (problem%raised()) return
-      call open_files(scene, input_text, beginning%turn > 0, state, directory, log, problem)
+      call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0), &
+                        merge(beginning%file%number + 1, 0_i8, beginning%turn > 0))
+      call open_files(scene, input_text, beginning, state, saving, directory, log, problem)
+      if (.not. problem%raised() .and. goes_on(beginning)) call sort_first(scene, model, beginning, state, timers, problem)
       if (problem%raised()) then
          call state%recorder%finish(directory, closing)
          return
       end if
       began = .true.
-      call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0))
-      call stop%begin(scene%time%max_wall_time)
+      call stop%begin(scene%time%max_wall_time, started, directory)
       call main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
       ! A failed run keeps all that it has measured.
       call state%recorder%finish(directory, closing)
@@ -101,7 +107,14 @@ contains
       call stop%finish()
    end subroutine simulate
 
-   ! The state that the run begins with. What is measured at t = 0 is found again where it goes on.
+   pure logical function goes_on(beginning)
+      type(beginning_t), intent(in) :: beginning
+
+      goes_on = beginning%turn > 0 .or. beginning%forked
+   end function goes_on
+
+   ! The state that the run begins with: sorted at t = 0; where it goes on, as it was kept. What is measured at t = 0 is measured
+   ! again then.
    subroutine set_up(scene, model, input_text, beginning, state, timers, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -117,7 +130,7 @@ contains
       if (.not. state%step%scattered) then
          call start_extremes(model, state%p, state%step)
          call state%recorder%start(scene, input_text, model, state%p)
-         if (beginning%turn > 0 .or. beginning%forked) then
+         if (goes_on(beginning)) then
             if (beginning%file%particles == state%p%n) call state%archive(beginning%file)
             reason = beginning%file%missing()
             if (beginning%file%particles /= state%p%n) reason = 'it has another number of particles than the scene'
@@ -125,31 +138,74 @@ contains
             if (reason /= '') call problem%raise(exit_files, "cannot go on from '"//beginning%file%path//"': "//reason)
             if (problem%raised()) return
             state%first_step = state%step%step
-            if (beginning%forked) call state%recorder%begin_anew()
-            call go_on(model, state%p, state%near, state%step, state%plan, timers)
+            if (.not. beginning%forked) return
+            call state%recorder%begin_anew()
+            call check_box(model%box%after(state%step%time), state%p, problem)
          end if
       end if
       if (state%step%scattered) call problem%raise(exit_numerics, &
          'the fluid is more than 4 million strips of width h long: move the bodies closer in x')
    end subroutine set_up
 
+   ! The first sort of a run that goes on. A state that has failed is no better the second time.
+   subroutine sort_first(scene, model, beginning, state, timers, problem)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      type(beginning_t), intent(in) :: beginning
+      type(run_state_t), intent(inout) :: state
+      type(timers_t), intent(inout) :: timers
+      type(failure), intent(inout) :: problem   !! exit_numerics
+
+      call go_on(model, state%p, state%near, state%step, state%plan, timers)
+      if (state%step%scattered) call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long')
+      if (problem%raised()) return
+      associate (step => state%step)
+         if (beginning%forked) call begin_balance_anew(state%recorder%budget, model, state%p, works_t(step%work_alpha, &
+                                                       step%work_delta, step%work_walls, step%work_force))
+      end associate
+      call watch_balance(scene%time%balance_limit, model, state, problem)
+   end subroutine sort_first
+
+   ! Particles of a fork whose box is another: all must be in it.
+   subroutine check_box(box, p, problem)
+      type(box_t), intent(in) :: box
+      type(particles_t), intent(in) :: p        !! `next` in the order of numbers
+      type(failure), intent(inout) :: problem   !! exit_input
+      integer :: i
+
+      do i = 1, p%n
+         if (.not. any(is_wall(box%kind) .and. [p%next%x(i) < box%at(1), p%next%x(i) > box%at(2), p%next%y(i) < box%at(3), &
+                                                p%next%y(i) > box%at(4)])) cycle
+         call problem%raise(exit_input, 'particle '//to_text(i)//' of the checkpoint, at ('//to_text(p%next%x(i))//', ' &
+                            //to_text(p%next%y(i))//'), is outside of &domain: a fork must have all of the fluid in its box')
+         return
+      end do
+   end subroutine check_box
+
    ! From here on files change: an earlier result is deleted; where the run goes on, what was written behind the checkpoint, which
-   ! comes again.
-   subroutine open_files(scene, input_text, goes_on, state, directory, log, problem)
+   ! comes again. A changed input is kept in a checkpoint first: a kill must not undo it.
+   subroutine open_files(scene, input_text, beginning, state, saving, directory, log, problem)
       type(settings_t), intent(in) :: scene
       character(*), intent(in) :: input_text
-      logical, intent(in) :: goes_on
+      type(beginning_t), intent(in) :: beginning
       type(run_state_t), intent(inout) :: state
+      type(checkpoints_t), intent(inout) :: saving
       type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
       type(failure), intent(inout) :: problem   !! exit_files
       character(:), allocatable :: ignored
+      logical :: here   ! it goes on in its own directory
 
-      if (.not. goes_on) call directory%clear(problem)
-      if (.not. problem%raised()) call state%recorder%open(scene, directory, problem)
-      if (.not. problem%raised()) call log%open_file(directory%file(log_name), goes_on, problem)
+      here = beginning%turn > 0
+      if (here) call state%recorder%open(scene, directory, only_check=.true., problem=problem)
+      if (here .and. .not. problem%raised()) call directory%look_for_foreign(problem)
+      if (.not. (here .or. problem%raised())) call directory%clear(problem)
+      if (.not. problem%raised() .and. (beginning%changed .or. beginning%forked)) call saving%write(state, directory, problem)
       if (.not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
-      if (problem%raised() .or. .not. goes_on) return
+      if (.not. problem%raised()) call state%recorder%open(scene, directory, only_check=.false., problem=problem)
+      if (.not. problem%raised()) call log%open_file(directory%file(log_name), here, problem)
+      if (problem%raised() .or. .not. here) return
+      call say_which_snapshots_lack(state%recorder%series%count(), directory, log)
       call delete_file(directory%file(summary_name), ignored)
       call directory%delete_later_snapshots(state%recorder%series%count(), problem)
       if (problem%raised()) return
@@ -159,6 +215,18 @@ contains
          call delete_file(directory%file(series_name), ignored)
       end if
    end subroutine open_files
+
+   subroutine say_which_snapshots_lack(n, directory, log)
+      integer, intent(in) :: n   !! that the checkpoint knows of
+      type(result_directory_t), intent(in) :: directory
+      type(log_t), intent(inout) :: log
+      integer :: k
+
+      do k = 0, n - 1
+         if (file_bytes(directory%snapshot_path(k)) <= 0) call log%warn('snapshot', "'"//directory%snapshot_path(k) &
+            //"' is not there, or empty, and does not come again")
+      end do
+   end subroutine say_which_snapshots_lack
 
    subroutine main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
       type(settings_t), intent(in) :: scene
@@ -195,11 +263,13 @@ contains
             call timers%start(phase_output)
             call save_if_wanted(scene, model, state, saving, stop%reason /= '', directory, saved, problem)
             call timers%stop(phase_output)
-            if (problem%raised()) then
+            if (problem%raised() .and. problem%code == exit_files) then
                status = 'failed: output'
                state%step = before   ! the last one that was recorded
                exit
             end if
+         end if
+         if (.not. problem%raised()) then
             call refresh(model, state%p, state%near, state%step, timers)
             if (state%step%scattered) call check_step(model, state%p, state%step, scene%time%end_time, problem)
          end if
@@ -221,7 +291,7 @@ contains
       end do
    end subroutine main_loop
 
-   ! A checkpoint of the state `next`, if there is to be one and can be.
+   ! A checkpoint of the state `next`, if there is to be one and can be; none of a state that has failed.
    subroutine save_if_wanted(scene, model, state, saving, stop, directory, saved, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -236,7 +306,12 @@ contains
       now = sorts_next(state%near, state%step)
       if (now) now = saving%wanted(scene, model, state, stop)
       if (.not. now) return
-      if (saving%input /= '') call saving%write(model, state, directory, problem)
+      call swap_states(state%p%base, state%p%next)
+      call watch_balance(scene%time%balance_limit, model, state, problem)
+      call swap_states(state%p%base, state%p%next)
+      if (problem%raised()) return
+      state%plan = plan_next(model, state%near, state%step)
+      if (saving%input /= '') call saving%write(state, directory, problem)
       saved = stop
    end subroutine save_if_wanted
 

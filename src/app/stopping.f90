@@ -1,7 +1,7 @@
 !> Why a run shall stop before its end: a signal, a file STOP in its directory, or max_wall_time. It can go on from a checkpoint.
 module stopping
    use errors, only: failure
-   use file_system, only: delete_file, path_exists
+   use file_system, only: delete_file, is_directory, path_exists
    use kinds, only: dp
    use result_directory, only: result_directory_t, stop_name
    use stop_signals, only: stop_signals_t
@@ -27,14 +27,18 @@ module stopping
 
 contains
 
-   !> From here on signals wait until they are looked for.
-   subroutine begin(self, longest)
+   !> From here on signals wait until they are looked for. A file STOP that is there was meant for another run.
+   subroutine begin(self, longest, started, directory)
       class(stopping_t), intent(inout) :: self
-      real(dp), intent(in) :: longest   !! wall time from now on [s]; 0: endless
+      real(dp), intent(in) :: longest   !! wall time [s]; 0: endless
+      real(dp), intent(in) :: started   !! since then, of the clock [s]
+      type(result_directory_t), intent(in) :: directory
+      character(:), allocatable :: ignored
 
+      call delete_file(directory%file(stop_name), ignored)
       self%reason = ''
       self%longest = longest
-      self%started = wall_seconds()
+      self%started = started
       self%last_look = -huge(1.0_dp)
       call self%signals%hold()
    end subroutine begin
@@ -45,6 +49,7 @@ contains
       type(result_directory_t), intent(inout) :: directory
       character(:), allocatable :: ignored
       real(dp) :: now
+      logical :: asked
 
       if (self%reason /= '') return
       now = wall_seconds()
@@ -53,15 +58,19 @@ contains
       if (self%reason /= '' .or. now - self%last_look < look_interval) return
       self%last_look = now
       call directory%keep_alive()
-      if (.not. path_exists(directory%file(stop_name))) return
+      asked = path_exists(directory%file(stop_name))
+      if (asked) asked = .not. is_directory(directory%file(stop_name))
+      if (.not. asked) return
       self%reason = 'file '//stop_name
       call delete_file(directory%file(stop_name), ignored)   ! it has been seen; the next run shall not stop for it
    end subroutine look
 
-   !> Signals act as they did before.
+   !> Signals act as they did before; those that have come meanwhile are too late.
    subroutine finish(self)
       class(stopping_t), intent(inout) :: self
 
+      do while (self%signals%arrived() /= '')
+      end do
       call self%signals%release()
    end subroutine finish
 

@@ -13,8 +13,9 @@ module file_system
    implicit none
    private
 
-   public :: delete_file, file_bytes, find_files, flush_unit, is_directory, is_link, is_writable, make_directory, partial_path, &
-      path_exists, publish, read_whole_file, remove_directory, rename_file, secure_path, secure_unit, seek_end, &
+   public :: delete_file, file_bytes, find_files, flush_unit, is_deleted, is_directory, is_link, &
+      is_writable, make_directory, partial_path, &
+      path_exists, publish, read_whole_file, remove_directory, rename_file, same_place, secure_path, secure_unit, seek_end, &
       shorten_file, write_whole_file
 
    integer, parameter, public :: longest_path = 4096   !! characters, as Linux has it
@@ -66,6 +67,13 @@ module file_system
          character(kind=c_char), intent(inout) :: target(*)
          integer(c_size_t), value :: length
       end function c_readlink
+
+      ! The room must be that of the longest path.
+      type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: resolved(*)
+      end function c_realpath
 
       type(c_ptr) function c_opendir(path) bind(c, name='opendir')
          import :: c_char, c_ptr
@@ -159,6 +167,33 @@ contains
       is_link = c_readlink(c_text(path), target, 1_c_size_t) >= 0
    end function is_link
 
+   !> Whether two paths lead to one directory or file that is there.
+   logical function same_place(one, other)
+      character(*), intent(in) :: one, other
+      character(kind=c_char) :: first(longest_path), second(longest_path)
+
+      first = c_null_char
+      second = c_null_char
+      same_place = c_associated(c_realpath(c_text(one), first))
+      if (same_place) same_place = c_associated(c_realpath(c_text(other), second))
+      if (same_place) same_place = all(first == second)
+   end function same_place
+
+   !> Whether an open file has lost its name; where the system cannot tell it has not.
+   logical function is_deleted(descriptor)
+      integer(c_int), intent(in) :: descriptor
+      character(*), parameter :: mark = ' (deleted)'
+      character(kind=c_char) :: target(longest_path)
+      character(20) :: number
+      integer(c_size_t) :: length
+      integer :: i
+
+      write (number, '(i0)') descriptor
+      length = c_readlink(c_text('/proc/self/fd/'//number), target, size(target, kind=c_size_t))
+      is_deleted = length >= len(mark)
+      if (is_deleted) is_deleted = all(target(length - len(mark) + 1:length) == [(mark(i:i), i=1, len(mark))])
+   end function is_deleted
+
    !> True for a directory that may be listed.
    logical function is_directory(path)
       character(*), intent(in) :: path
@@ -185,7 +220,9 @@ contains
       character(:), allocatable, intent(out) :: reason
 
       reason = reason_of(c_mkdir(c_text(path), all_may_read))
-      if (len(reason) > 0 .and. is_link(path)) reason = 'it is a symbolic link that leads nowhere'
+      if (len(reason) > 0) then
+         if (is_link(path)) reason = 'it is a symbolic link that leads nowhere'
+      end if
    end subroutine make_directory
 
    !> Removes a directory if it is empty; fails, and changes nothing, otherwise.

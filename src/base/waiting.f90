@@ -46,7 +46,8 @@ contains
       integer(c_int) :: status
       logical :: settled
 
-      settled = is_set('OMP_WAIT_POLICY') .or. is_set('GOMP_SPINCOUNT')
+      settled = is_set('OMP_WAIT_POLICY')
+      if (.not. settled) settled = is_set('GOMP_SPINCOUNT')
       if (present(anew)) settled = settled .and. .not. anew
       if (settled) return
       n = command_argument_count()

@@ -15,7 +15,7 @@ module budget
    implicit none
    private
 
-   public :: budget_t, works_t, start_budget, update_budget, add_rotation, imbalance
+   public :: budget_t, works_t, start_budget, update_budget, add_rotation, imbalance, begin_balance_anew
 
    !> Energies given to the fluid since t = 0.
    type :: works_t
@@ -168,6 +168,21 @@ contains
       if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + abs(works%alpha) + abs(works%delta) &
                                                + abs(works%walls) + abs(works%force))
    end function imbalance
+
+   !> Where another model takes over at the base state whose energies are not the same, the balance counts from here.
+   subroutine begin_balance_anew(self, model, p, works)
+      type(budget_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p
+      type(works_t), intent(in) :: works
+      real(dp), parameter :: of_the_steps = 0.01_dp   ! share that a balance may miss anyway
+      type(energies_t) :: now
+      real(dp) :: missing
+
+      call measure_energies(model, p, now)
+      missing = now%total() - self%initial%total() - works%alpha - works%delta - works%walls - works%force
+      if (abs(missing) > of_the_steps*self%normaliser) self%initial%elastic = self%initial%elastic + missing
+   end subroutine begin_balance_anew
 
    !> Adds to Q_omega what the real viscosity has dissipated since the last call, by the trapezoidal rule.
    !! Source: eq. 29.

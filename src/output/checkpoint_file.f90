@@ -27,6 +27,7 @@ module checkpoint_file
       character(:), allocatable :: input       !! the complete namelist
       character(:), allocatable :: origin      !! where the run was forked from; '' for one that began at its beginning
       integer(i8) :: particles = 0
+      integer(i8) :: number = 0                !! of checkpoints that the run had written before
       integer(i8) :: step = 0
       real(dp) :: time = 0
       character(:), allocatable :: path
@@ -64,10 +65,17 @@ contains
       call self%writer%put_text('/input', self%input)
       call self%writer%put_text('/origin', self%origin//' ')
       self%group = '/'
+      call keep_facts(self)
+   end subroutine write_head
+
+   subroutine keep_facts(self)
+      class(checkpoint_file_t), intent(inout) :: self
+
       call self%keep('particles', self%particles)
+      call self%keep('number', self%number)
       call self%keep('step', self%step)
       call self%keep('time', self%time)
-   end subroutine write_head
+   end subroutine keep_facts
 
    !> Completes the file that was begun.
    subroutine finish(self, problem)
@@ -109,10 +117,9 @@ contains
       call read_text(self, '/git_id', self%git_id)
       call read_text(self, '/input', self%input)
       call read_text(self, '/origin', self%origin)
-      call self%keep('particles', self%particles)
-      call self%keep('step', self%step)
-      call self%keep('time', self%time)
+      call keep_facts(self)
       reason = self%missing()
+      if (reason /= '') call self%close()
    end subroutine open_checkpoint
 
    !> What could not be read so far, as a reason; '' if nothing.

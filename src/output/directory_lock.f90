@@ -5,7 +5,7 @@
 module directory_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_size_t
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: delete_file, path_exists
+   use file_system, only: delete_file, file_bytes, is_deleted, is_link
    use kinds, only: i8
    implicit none
    private
@@ -78,6 +78,9 @@ contains
 
       self%path = directory//'/'//name
       self%owner = this_process()
+      if (is_link(self%path)) call problem%raise(exit_input, "'"//self%path//"' is a link, and dynsph has that name for a " &
+                                                 //'file of its own: move it away')
+      if (problem%raised()) return
       open (newunit=self%unit, file=self%path, status='unknown', action='readwrite', iostat=status, iomsg=message)
       if (status /= 0) then
          self%unit = no_unit
@@ -87,12 +90,17 @@ contains
       call read_owner(self%unit, other)
       if (c_flock(c_descriptor(int(self%unit, c_int)), exclusive_or_fail) /= 0) then
          call refuse('')
+      else if (other%host == '' .and. file_bytes(self%path) > 0) then
+         call problem%raise(exit_input, "'"//self%path//"' was not written by a run of dynsph, which has that name for one of " &
+                            //'its own: move it away')
+         close (self%unit, iostat=status)
+         self%unit = no_unit
       else if (other%host /= '' .and. other%host /= self%owner%host .and. self%owner%seen - other%seen < silence) then
          call refuse("; if that machine is no more, delete '"//self%path//"'")
       else
          call self%beat()
          ! Whoever held it may have deleted the file between our opening and locking it.
-         if (.not. path_exists(self%path)) call refuse('')
+         if (is_deleted(c_descriptor(int(self%unit, c_int)))) call refuse('')
       end if
 
    contains

@@ -25,8 +25,8 @@ module result_directory
    character(*), parameter :: any_snapshot = 'snapshot_'//repeat(digit, 6)//'.vtkhdf'
 
    !> Everything dynsph writes and may therefore delete, as shell patterns.
-   character(*), parameter :: own_files(*) = [character(64) :: log_name, input_name, energy_name, probes_name, summary_name, &
-      errors_name, series_name, any_snapshot, checkpoint_names, &
+   character(*), parameter :: own_files(*) = [character(64) :: checkpoint_names, log_name, energy_name, probes_name, summary_name, &
+      errors_name, series_name, any_snapshot, input_name, &   ! by the last one the others are known
       input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial', &
       checkpoint_names//'.partial']
 
@@ -57,6 +57,7 @@ module result_directory
       procedure :: release
       procedure :: keep_alive
       procedure :: reopen
+      procedure :: look_for_foreign
       procedure :: delete_later_snapshots
       procedure :: file
       procedure :: snapshot_path
@@ -96,10 +97,11 @@ contains
       end if
    end subroutine prepare
 
-   !> Takes the directory of a run that shall go on, for this process alone. Changes nothing.
-   subroutine reopen(self, path, problem)
+   !> Takes the directory of a run that shall go on, for this process alone unless it is only read. Changes nothing.
+   subroutine reopen(self, path, only_read, problem)
       class(result_directory_t), intent(inout) :: self
       character(*), intent(in) :: path
+      logical, intent(in) :: only_read
       type(failure), intent(inout) :: problem   !! exit_files: cannot be used; exit_input: another run holds it
       character(:), allocatable :: reason
 
@@ -108,6 +110,8 @@ contains
       if (allocated(self%made)) deallocate (self%made)
       if (.not. is_directory(self%path)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': it is not a directory that can be read")
+      else if (only_read) then
+         return
       else if (.not. is_writable(self%path, reason)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': "//reason)
       else
@@ -137,6 +141,14 @@ contains
 
       call self%lock%beat()
    end subroutine keep_alive
+
+   !> Refuses a directory that has files of others under our names.
+   subroutine look_for_foreign(self, problem)
+      class(result_directory_t), intent(in) :: self
+      type(failure), intent(inout) :: problem   !! exit_input
+
+      call find_foreign(self%path, problem)
+   end subroutine look_for_foreign
 
    !> Deletes the snapshots from a number on, and what was being written when a run was broken off.
    subroutine delete_later_snapshots(self, number, problem)
@@ -242,7 +254,7 @@ contains
       logical, intent(in) :: overwrite
       type(failure), intent(inout) :: problem
       character(longest_path), allocatable :: found(:)
-      integer :: i, k
+      integer :: i
 
       if (.not. overwrite) then
          do i = 1, size(result_signs)
@@ -253,6 +265,16 @@ contains
             return
          end do
       end if
+      call find_foreign(path, problem)
+   end subroutine look_at_earlier_result
+
+   ! Refuses what has a name of ours and is not ours.
+   subroutine find_foreign(path, problem)
+      character(*), intent(in) :: path
+      type(failure), intent(inout) :: problem   !! exit_input
+      character(longest_path), allocatable :: found(:)
+      integer :: i, k
+
       do i = 1, size(own_files)
          call find_files(path, trim(own_files(i)), found)
          do k = 1, size(found)
@@ -261,16 +283,18 @@ contains
                //'another directory with --output DIR')
          end do
       end do
-   end subroutine look_at_earlier_result
+   end subroutine find_foreign
 
-   ! Whether somebody else has written a file with a name of ours. A log can be known only by the input beside it.
+   ! Whether somebody else has written a file with a name of ours. A log and what was being written can be known only by the input
+   ! beside them.
    logical function is_foreign(directory, path)
       character(*), intent(in) :: directory, path
       integer :: k
 
-      is_foreign = .false.
-      if (file_bytes(path) == 0) return   ! nothing can be lost
-      if (path == directory//'/'//log_name) is_foreign = .not. path_exists(directory//'/'//input_name)
+      is_foreign = is_directory(path)
+      if (is_foreign .or. file_bytes(path) == 0) return   ! nothing can be lost
+      if (path == directory//'/'//log_name .or. ends_with(path, '.partial')) &
+         is_foreign = .not. path_exists(directory//'/'//input_name)
       do k = 1, size(beginnings)
          if (.not. ends_with(path, trim(beginnings(k)%ending))) cycle
          is_foreign = .not. begins_with(path, trim(beginnings(k)%letters))

@@ -2,18 +2,14 @@
 
 # A run that is stopped from outside says how it goes on, has an exit code of its own, and goes on.
 add_test(NAME stops_for_a_file COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--overwrite;--output;with_stop;--set;time.end_time=1000;${scenes}/still_layers.nml"
+   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_for_a_file.bash;with_stop;${with_one};--set;time.end_time=1000;--set;output.energy=1 steps;${scenes}/still_layers.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=4
    "-DEXPECT=the run ended at t = .* of end_time = 1000: file STOP. It goes on with: dynsph --resume with_stop" -P ${run_and_expect})
-add_test(NAME stop_is_asked_for COMMAND ${CMAKE_COMMAND} -E make_directory ${here}/with_stop)
-add_test(NAME stop_file_is_there COMMAND ${CMAKE_COMMAND} -E touch ${here}/with_stop/STOP)
-set_tests_properties(stop_is_asked_for PROPERTIES FIXTURES_SETUP stop_directory)
-set_tests_properties(stop_file_is_there PROPERTIES FIXTURES_REQUIRED stop_directory FIXTURES_SETUP stop_file)
-set_tests_properties(stops_for_a_file PROPERTIES FIXTURES_REQUIRED stop_file FIXTURES_SETUP stopped_result TIMEOUT 60)
+set_tests_properties(stops_for_a_file PROPERTIES FIXTURES_SETUP stopped_result TIMEOUT 60)
 add_test(NAME stopped_run_goes_on COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--resume;with_stop;--set;time.end_time=4;--set;time.max_steps=30"
+   "-DCOMMAND=${with_one};--resume;with_stop;--set;time.end_time=100;--set;time.max_steps=2000"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
-   "-DEXPECT=goes on from with_stop/checkpoint_a.h5: step;changed: time.end_time = 4.0 .was 1000.0.;the run ended at t = .* max_steps = 30"
+   "-DEXPECT=goes on from with_stop/checkpoint_..h5: step;changed: time.end_time = 100.0 .was 1000.0.;the run ended at t = .* max_steps = 2000"
    "-DNOT_CREATED=with_stop/STOP;with_stop/run.lock" -P ${run_and_expect})
 set_tests_properties(stopped_run_goes_on PROPERTIES FIXTURES_REQUIRED stopped_result FIXTURES_SETUP resumed_result TIMEOUT 60)
 
@@ -29,11 +25,11 @@ resume_refused(a_table_that_was_not "output.energy = 'never' .was '1 steps'.: on
 resume_refused(another_body_in_a_fork "body.1..pressure = 'zero' .was 'hydrostatic'.: the particles of the checkpoint are of the old one"
    --fork fork --set "body(1).pressure=zero")
 add_test(NAME a_fork_may_change_more COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--resume;with_stop;--fork;forked;--overwrite;--set;fluid.gravity=2;--set;time.max_steps=60;--set;output.energy=1 steps"
+   "-DCOMMAND=${with_one};--resume;with_stop;--fork;forked;--overwrite;--set;fluid.gravity=2;--set;time.max_steps=2100;--set;output.energy=1 steps"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=changed: fluid.gravity = 2.0 .was 1.0." "-DCREATED=forked/summary.txt" -P ${run_and_expect})
 set_tests_properties(a_fork_may_change_more PROPERTIES FIXTURES_REQUIRED "stopped_result;resumed_result" FIXTURES_SETUP forked_result TIMEOUT 60)
-add_test(NAME a_fork_says_where_it_is_from COMMAND ${CMAKE_COMMAND} "-DCOMMAND=grep;Forked from with_stop at step;forked/input_used.nml;forked/summary.txt"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=input_used.nml:! Forked;summary.txt:forked_from = Forked" -P ${run_and_expect})
+add_test(NAME a_fork_says_where_it_is_from COMMAND ${CMAKE_COMMAND} "-DCOMMAND=grep;orked.from.* with_stop at step;forked/input_used.nml;forked/summary.txt"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=input_used.nml:! Forked;summary.txt:forked_from = with_stop at step" -P ${run_and_expect})
 set_tests_properties(a_fork_says_where_it_is_from PROPERTIES FIXTURES_REQUIRED forked_result TIMEOUT 30)
 
 refused(resume_of_nothing 3 1 "" "cannot go on with 'nowhere': it is not a directory" --resume nowhere)
@@ -45,5 +41,5 @@ add_test(NAME balance_is_watched COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--quiet;--output;out_of_balance;--set;scene.resolution=16;--set;time.balance_limit=5e-4;--set;output.snapshots=never;${dam_break}"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=2
    "-DEXPECT=the energy balance misses 0.00.* after step .*0 at t = 2.*fastest: particle .* with speed/c0 .*The state is in the last snapshot"
-   "-DCREATED=out_of_balance/snapshot_000000.vtkhdf;out_of_balance/summary.txt" -P ${run_and_expect})
+   "-DCREATED=out_of_balance" -P ${run_and_expect})
 set_tests_properties(balance_is_watched PROPERTIES TIMEOUT 60)
