@@ -10,7 +10,7 @@ endforeach()
 # It sees what it is there for: sees_fault(name mutants "line of a script in the place of dynsph" "message").
 function(sees_fault name mutants line message)
    set(bin ${here}/fuzz_bin_${name})
-   file(WRITE ${bin}/dynsph "#!/bin/sh\ncase $1 in --keys) cat '${PROJECT_SOURCE_DIR}/docs/input.md'; exit 0 ;; esac\n${line}\n")
+   file(WRITE ${bin}/dynsph "#!/bin/sh\ncase $1 in --keys) cat '${PROJECT_SOURCE_DIR}/docs/input.md'; exit 0 ;; --version) exit 0 ;; esac\n${line}\n")
    file(COPY ${bin}/dynsph DESTINATION ${bin}/bin
       FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
    add_test(NAME fuzz_sees_${name} COMMAND ${CMAKE_COMMAND}

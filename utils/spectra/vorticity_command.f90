@@ -54,6 +54,11 @@ contains
                                                        ' --help shows an example')
       call take_request(options, request, problem)
       if (problem%raised()) return
+      ! Before anything is written.
+      do i = 1, size(options%files)
+         if (.not. request%overwrite) call check_outputs(trim(options%files(i)), request%with_field, problem)
+      end do
+      if (problem%raised()) return
       do i = 1, size(options%files)
          call transform_snapshot(trim(options%files(i)), request, i == 1, problem)
          if (problem%raised()) return
@@ -144,11 +149,6 @@ contains
       real(dp) :: h
       integer :: corners(4)
 
-      if (.not. request%overwrite) then
-         call must_not_be_there(output_name(path, 'spectrum'), problem)
-         if (request%with_field) call must_not_be_there(output_name(path, 'field'), problem)
-         if (problem%raised()) return
-      end if
       call read_snapshot(path, snapshot, problem)
       if (problem%raised()) return
       h = request%smoothing*snapshot%spacing
@@ -184,6 +184,16 @@ contains
             short(grid%lower(1)), ', ', short(grid%lower(2)), ', ', short(last(1)), ', ', short(last(2)), '   ', path
       end associate
    end subroutine transform_snapshot
+
+   !> Raises exit_input if what a snapshot gives is there already.
+   subroutine check_outputs(path, with_field, problem)
+      character(*), intent(in) :: path
+      logical, intent(in) :: with_field
+      type(failure), intent(inout) :: problem
+
+      call must_not_be_there(output_name(path, 'spectrum'), problem)
+      if (with_field) call must_not_be_there(output_name(path, 'field'), problem)
+   end subroutine check_outputs
 
    subroutine must_not_be_there(path, problem)
       character(*), intent(in) :: path
