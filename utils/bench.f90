@@ -17,6 +17,7 @@ program bench
    use pair_passes, only: all_passes, count_lanes, lanes_t, shorten_lists
    use parallel_clock, only: parallel_seconds
    use particles, only: bytes_per_slot, particles_t
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use scene_input, only: read_settings
    use scene_setup, only: set_up_model, set_up_particles
@@ -26,7 +27,6 @@ program bench
    use text, only: short
    use time_step, only: advance, refresh
    use timers, only: timers_t, wall_seconds
-   use waiting, only: sleep_while_waiting
    implicit none
 
    integer, parameter :: repeats = 5
@@ -60,7 +60,7 @@ contains
       character(:), allocatable :: warnings(:)
       integer :: status(2)
 
-      call sleep_while_waiting()
+      call start_process()
       call take_arguments(words)
       if (size(words) < 3) then
          call problem%raise(exit_input, 'usage: dynsph-bench SCENE.nml START_TIME STEPS [--set group.key=value ...]')

@@ -15,6 +15,7 @@ program ladder
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: allocate_particles, particles_t, reserve_slots
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use recorder, only: recorder_t
    use result_directory, only: result_directory_t
@@ -26,7 +27,6 @@ program ladder
    use text, only: behind
    use time_step, only: advance, refresh
    use timers, only: timers_t
-   use waiting, only: sleep_while_waiting
    implicit none
 
    integer, parameter :: phase_output = 5
@@ -63,7 +63,7 @@ contains
       character(:), allocatable :: words(:)
       integer :: status(3)
 
-      call sleep_while_waiting()
+      call start_process()
       call take_arguments(words)
       status = 1
       if (size(words) >= 5) then

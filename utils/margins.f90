@@ -12,6 +12,7 @@ program margins
    use kinds, only: dp
    use linear_stability, only: margins_t
    use options, only: options_t
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use scene_input, only: load_scene, read_settings_text
    use scene_run, only: run_into_directory
@@ -19,7 +20,6 @@ program margins
    use solution_register, only: solutions_t
    use standard_output, only: check_screen, errors_for_signals
    use text, only: short
-   use waiting, only: sleep_while_waiting
    implicit none
 
    real(dp), parameter :: least = 0.01_dp, largest = 1.2_dp
@@ -28,7 +28,7 @@ program margins
    character(:), allocatable :: arguments(:)
 
    call declare_options(given)
-   call sleep_while_waiting()
+   call start_process()
    call errors_for_signals(pipes=.true.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)

@@ -16,10 +16,10 @@ program spectra_accuracy
    use options, only: options_t
    use particle_snapshot, only: particle_snapshot_t, read_snapshot
    use plane_spectrum, only: add_spectrum, new_rings, power_above, rings_t
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use rectangles, only: largest_rectangle
    use standard_output, only: check_screen, errors_for_signals
-   use waiting, only: sleep_while_waiting
    implicit none
 
    real(dp), parameter :: pi = acos(-1.0_dp)
@@ -43,7 +43,7 @@ program spectra_accuracy
    call given%add('--disorder', 'X', '', 'a lattice, each particle moved by up to X dx in x and y')
    call given%add('--smoothing', 'H/DX', '1.25', 'smoothing length of the interpolation, over dx')
    call given%add('--largest', 'K', '1', 'largest wavenumber of the waves, over pi/dx')
-   call sleep_while_waiting()
+   call start_process()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)

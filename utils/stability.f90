@@ -14,6 +14,7 @@ program stability
    use neighbours, only: neighbours_t
    use options, only: options_t
    use particles, only: particles_t
+   use process_start, only: start_process
    use program_arguments, only: take_arguments
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: body_settings, settings_t
@@ -23,7 +24,6 @@ program stability
    use timers, only: timers_t
    use von_neumann, only: growth, lattice_waves, stable_cfl, wave_t
    use threads, only: limit_threads
-   use waiting, only: sleep_while_waiting
    implicit none
 
    integer, parameter :: across = 24                     ! particles
@@ -39,7 +39,7 @@ program stability
    real(dp) :: cfl, theory, edge
 
    call declare_options(given)
-   call sleep_while_waiting()
+   call start_process()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call given%parse(arguments, problem)

@@ -3,12 +3,13 @@ module resumed_run
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use changed_keys, only: change_t, list_changes
+   use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: latest_checkpoint
    use command_line, only: command_line_t
    use errors, only: exit_files, exit_input, failure
    use file_system, only: path_exists, read_whole_file, same_place
    use key_writer, only: complete_input
-   use result_directory, only: input_name, result_directory_t, summary_name
+   use result_directory, only: checkpoint_names, input_name, result_directory_t, summary_name
    use run_log, only: log_t
    use scene_input, only: read_settings_text
    use scene_run, only: run_into_directory
@@ -43,14 +44,14 @@ contains
          call begin_again(options, source, remarks, problem)
          return
       end if
-      call read_changed(options, beginning, scene, changes, log, problem)
-      directory = source
       beginning%forked = options%fork /= ''
+      if (.not. beginning%forked) call check_origin(source, beginning, problem)
+      if (.not. problem%raised()) call read_changed(options, beginning, scene, changes, log, problem)
+      directory = source
       if (beginning%forked .and. .not. problem%raised()) call prepare_fork(options, source, beginning, directory, problem)
       began = .false.
       if (.not. problem%raised()) then
-         input_text = beginning%input
-         if (beginning%origin /= '') input_text = '! Forked from '//beginning%origin//new_line('a')//input_text
+         input_text = with_origin(beginning%origin, beginning%input)
          call say_where_it_goes_on(log, beginning, remarks, changes)
          call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
          call log%close(problem)
@@ -59,6 +60,38 @@ contains
       if (beginning%forked .and. .not. began) call directory%discard(problem)
       call directory%release()
    end subroutine resume_run
+
+   ! The complete input as input_used.nml has it.
+   pure function with_origin(origin, input) result(text)
+      character(*), intent(in) :: origin, input
+      character(:), allocatable :: text
+
+      text = input
+      if (origin /= '') text = '! Forked from '//origin//new_line('a')//input
+   end function with_origin
+
+   ! Refuses a checkpoint of another run. The input is that of the latest checkpoint, or of the one before if the run was killed
+   ! between the two.
+   subroutine check_origin(directory, beginning, problem)
+      type(result_directory_t), intent(in) :: directory
+      type(beginning_t), intent(in) :: beginning
+      type(failure), intent(inout) :: problem   !! exit_files
+      type(checkpoint_file_t) :: before
+      character(:), allocatable :: content, reason
+      logical :: fits
+
+      if (.not. path_exists(directory%file(input_name))) return
+      call read_whole_file(directory%file(input_name), content, problem)
+      if (problem%raised()) return
+      fits = content == with_origin(beginning%file%origin, beginning%file%input)
+      if (.not. fits) then
+         call before%open(directory%file(trim(checkpoint_names(3 - beginning%turn))), reason)
+         if (reason == '') fits = content == with_origin(before%origin, before%input)
+         call before%close()
+      end if
+      if (.not. fits) call problem%raise(exit_files, "cannot go on from '"//beginning%file%path &
+         //"': it is of another input than '"//directory%file(input_name)//"'")
+   end subroutine check_origin
 
    ! The directory of a fork, which has nothing from where it is from but the state.
    subroutine prepare_fork(options, source, beginning, directory, problem)
