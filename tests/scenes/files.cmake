@@ -36,3 +36,6 @@ told(link_to_file 3 "^cannot write results to 'link_to_file': it is not a direct
 foreach(way IN ITEMS removed renamed)
    told(${way} 3 "^cannot write '${way}/energy.dat': it was removed or renamed meanwhile\ncannot write '${way}/summary.txt': .*No such file or directory\n$")
 endforeach()
+
+# Runs without space say so, leave whole files, and end with the same bits when there is more.
+quick_study(full_disks_are_told reliability_disks 120 ", 0 BAD" "BAD:")
