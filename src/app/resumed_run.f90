@@ -220,6 +220,11 @@ contains
 
       begun = path_exists(directory%file(input_name))
       later = path_exists(directory%file(summary_name))
+      if (later) then
+         ! It ended; but one whose disk was full had not begun well.
+         call read_whole_file(directory%file(summary_name), content, problem)
+         later = index(content, 'status = failed: output') == 0
+      end if
       if (.not. later) later = path_exists(directory%snapshot_path(later_snapshot))
       content = ''
       if (begun .and. .not. later .and. options%fork == '' .and. remarks == '') &

@@ -74,6 +74,7 @@ contains
       type(failure), intent(inout) :: problem     !! exit_input: another run holds it; exit_files
       type(owner_t) :: other
       character(256) :: message
+      integer(i8) :: length
       integer :: status
 
       self%path = directory//'/'//name
@@ -88,9 +89,10 @@ contains
          return
       end if
       call read_owner(self%unit, other)
+      length = file_bytes(self%path)
       if (c_flock(c_descriptor(int(self%unit, c_int)), exclusive_or_fail) /= 0) then
          call refuse('')
-      else if (other%host == '' .and. file_bytes(self%path) > 0) then
+      else if (other%host == '' .and. length > 0) then
          call problem%raise(exit_input, "'"//self%path//"' was not written by a run of dynsph, which has that name for one of " &
                             //'its own: move it away')
          close (self%unit, iostat=status)

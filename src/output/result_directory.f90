@@ -292,7 +292,8 @@ contains
       integer :: k
 
       is_foreign = is_directory(path)
-      if (is_foreign .or. file_bytes(path) == 0) return   ! nothing can be lost
+      if (is_foreign) return
+      if (file_bytes(path) == 0) return   ! nothing can be lost
       if (path == directory//'/'//log_name .or. ends_with(path, '.partial')) &
          is_foreign = .not. path_exists(directory//'/'//input_name)
       do k = 1, size(beginnings)

@@ -217,7 +217,9 @@ contains
       character(:), allocatable :: words
 
       words = reason
-      if (words == '' .and. .not. path_exists(self%path)) words = 'it was removed or renamed meanwhile'
+      if (words == '') then
+         if (.not. path_exists(self%path)) words = 'it was removed or renamed meanwhile'
+      end if
       if (words == '' .or. self%failed) return
       self%failed = .true.
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//words)
