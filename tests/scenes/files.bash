@@ -5,7 +5,7 @@ loud=("${short[@]:1}")
 rm -rf "$case" "$case.moved"
 # Waits until the run has begun, does what is said to its directory, and ends with the run's exit code.
 meanwhile() { # COMMAND...
-   "$dynsph" --quiet --set output.snapshots=never --output "$case" "$scene" &
+   "$dynsph" --quiet --set output.snapshots=never --set output.checkpoint=never --output "$case" "$scene" &
    until [ -s "$case/energy.dat" ] && [ -s "$case/input_used.nml" ]; do sleep 0.05; done
    "$@"
    wait $!
