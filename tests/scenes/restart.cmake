@@ -32,6 +32,16 @@ add_test(NAME a_fork_says_where_it_is_from COMMAND ${CMAKE_COMMAND} "-DCOMMAND=g
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=input_used.nml:! Forked;summary.txt:forked_from = with_stop at step" -P ${run_and_expect})
 set_tests_properties(a_fork_says_where_it_is_from PROPERTIES FIXTURES_REQUIRED forked_result TIMEOUT 30)
 
+# A checkpoint of another run is no checkpoint of this one.
+add_test(NAME exchange_of_checkpoints COMMAND ${DYNSPH_BASH} -c
+   "rm -rf exchanged && cp -r with_stop exchanged && cp forked/checkpoint_?.h5 exchanged")
+set_tests_properties(exchange_of_checkpoints PROPERTIES WORKING_DIRECTORY ${here} FIXTURES_REQUIRED "resumed_result;forked_result"
+   FIXTURES_SETUP exchanged_result TIMEOUT 30)
+add_test(NAME refuses_checkpoints_of_another_run COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;--resume;exchanged"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=3
+   "-DEXPECT=cannot go on from 'exchanged/checkpoint_.*': it is of another input than 'exchanged/input_used.nml'" -P ${run_and_expect})
+set_tests_properties(refuses_checkpoints_of_another_run PROPERTIES FIXTURES_REQUIRED exchanged_result TIMEOUT 30)
+
 refused(resume_of_nothing 3 1 "" "cannot go on with 'nowhere': it is not a directory" --resume nowhere)
 refused(resume_without_a_checkpoint 3 1 "old/run.log" "there is no checkpoint in 'old' to go on from" --resume old)
 refused(files_of_others 1 1 "mine/probes.dat" "'mine/probes.dat' was not written by a run of dynsph" --overwrite --output mine ${dam_break})
