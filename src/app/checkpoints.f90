@@ -34,6 +34,7 @@ module checkpoints
       procedure :: watch
       procedure :: write => write_checkpoint
       procedure :: wanted
+      procedure :: any_written
    end type checkpoints_t
 
 contains
@@ -56,6 +57,13 @@ contains
       self%due = number == 0 .and. .not. self%when%is_never()
       self%last = wall_seconds()
    end subroutine start
+
+   !> Whether the run can go on from one.
+   pure logical function any_written(self)
+      class(checkpoints_t), intent(in) :: self
+
+      any_written = self%number > 0
+   end function any_written
 
    !> Looks whether one is due; it is written as soon as the particles are about to be sorted.
    subroutine watch(self, step, time, time_before)

@@ -100,7 +100,7 @@ contains
          //short(state%recorder%budget%largest_error)//' of its scale; a smaller cfl makes it close better')
       call report_limits(state%extremes, log, model%c0, state%p%n, state%step)
       if (.not. problem%raised() .and. state%step%time < scene%time%end_time) &
-         call say_that_it_ended_early(scene, state%step, stop%reason, beginning%input /= '', directory%path, log, problem)
+         call say_that_it_ended_early(scene, state%step, stop%reason, saving%any_written(), directory%path, log, problem)
       if (reason /= '') call log%keep(reason)
       call log%report_warnings()
       call closing_table(log, timers, seconds, state%recorder%budget, state%step, directory%path)
@@ -362,10 +362,11 @@ contains
       if (why == '') why = '&time max_steps = '//to_text(scene%time%max_steps)
       if (why == 'max_wall_time') why = '&time max_wall_time = '//short(scene%time%max_wall_time)//' s'
       words = 'the run ended at t = '//short(run%time)//' of end_time = '//short(scene%time%end_time)//': '//why
+      if (resumable) words = words//'. It goes on with: dynsph --resume '//for_shell(path)
       if (reason == '') then
+         if (resumable) words = words//' --set time.max_steps=0'
          call log%warn('ended early', words)
       else
-         if (resumable) words = words//'. It goes on with: dynsph --resume '//for_shell(path)
          call log%keep(words)
          call problem%raise(exit_stopped, words)
       end if
