@@ -76,18 +76,22 @@ contains
       if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
+      call stop%begin(scene%time%max_wall_time, started, directory)
       call set_up(scene, model, input_text, beginning, state, timers, problem)
-      if (problem%raised()) return
+      if (problem%raised()) then
+         call stop%finish()
+         return
+      end if
       call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0), &
                         merge(beginning%file%number + 1, 0_i8, beginning%turn > 0))
       call open_files(scene, input_text, beginning, state, saving, directory, log, problem)
       if (.not. problem%raised() .and. goes_on(beginning)) call sort_first(scene, model, beginning, state, timers, problem)
       if (problem%raised()) then
          call state%recorder%finish(directory, closing)
+         call stop%finish()
          return
       end if
       began = .true.
-      call stop%begin(scene%time%max_wall_time, started, directory)
       call main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
       ! A failed run keeps all that it has measured.
       call state%recorder%finish(directory, closing)

@@ -14,6 +14,7 @@ module table
    public :: table_t
 
    integer, parameter :: no_unit = -1
+   real(dp), parameter :: no_row = -huge(1.0_dp)
    integer, parameter :: column_width = 25                  !! full precision, three digits of exponent
    real(dp), parameter :: flush_interval = 1.0_dp           !! [s], so that a run can be watched
    character(*), parameter :: row_format = '(*(es25.16e3))'
@@ -24,6 +25,7 @@ module table
       integer :: unit = no_unit         !! (not kept: of the open file)
       integer(i8) :: row_bytes = 0
       integer(i8) :: bytes = 0          !! that the file must have by now
+      real(dp) :: last = no_row         !! first number of the last row
       real(dp) :: last_flush = 0.0_dp   !! (not kept: of the clock)
       logical :: failed = .false.       !! and that was told (not kept: the run ends)
       character(:), allocatable :: path !! (not kept: a directory may be renamed)
@@ -47,6 +49,7 @@ contains
 
       call file%keep('row_bytes', self%row_bytes)
       call file%keep('bytes', self%bytes)
+      call file%keep('last', self%last)
    end subroutine archive_table
 
    !> Whether a part of it was there when it was kept.
@@ -61,6 +64,7 @@ contains
       class(table_t), intent(inout) :: self
 
       self%bytes = 0
+      self%last = no_row
    end subroutine begin_anew
 
    !> Starts a table; an earlier file of that name is replaced.
@@ -131,6 +135,8 @@ contains
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': it has other columns than this version writes")
       else if (there < self%bytes) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': rows are missing that the checkpoint knows of")
+      else if (.not. ends_as_kept(self, path)) then
+         call problem%raise(exit_files, "cannot go on with '"//self%path//"': its rows are not those that the checkpoint knows of")
       end if
       if (problem%raised() .or. only_check) return
       call shorten_file(path, self%bytes, reason)
@@ -146,6 +152,29 @@ contains
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
    end subroutine go_on
+
+   ! Whether a line ends where the kept part does, and is that of the last row.
+   logical function ends_as_kept(self, path)
+      class(table_t), intent(in) :: self
+      character(*), intent(in) :: path
+      character :: letter
+      character(column_width) :: number
+      real(dp) :: value
+      integer :: status, unit
+
+      ends_as_kept = .false.
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=status)
+      if (status /= 0) return
+      read (unit, pos=self%bytes, iostat=status) letter
+      ends_as_kept = status == 0 .and. letter == new_line('a')
+      if (ends_as_kept .and. self%last > no_row) then
+         read (unit, pos=self%bytes - self%row_bytes + 1, iostat=status) number
+         if (status == 0) read (number, *, iostat=status) value
+         ends_as_kept = status == 0
+         if (ends_as_kept) ends_as_kept = .not. abs(value - self%last) > 0
+      end if
+      close (unit)
+   end function ends_as_kept
 
    !> Adds a row. NaN and infinities are written as such.
    subroutine row(self, values, problem)
@@ -163,6 +192,7 @@ contains
          return
       end if
       self%bytes = self%bytes + self%row_bytes
+      self%last = values(1)
       now = wall_seconds()
       if (now - self%last_flush >= flush_interval) call flush_now(self, now, problem)
    end subroutine row
