@@ -142,12 +142,12 @@ contains
       call self%lock%beat()
    end subroutine keep_alive
 
-   !> Refuses a directory that has files of others under our names.
+   !> Refuses a directory that has files of others under our names. A checkpoint may be damaged: there are two.
    subroutine look_for_foreign(self, problem)
       class(result_directory_t), intent(in) :: self
       type(failure), intent(inout) :: problem   !! exit_input
 
-      call find_foreign(self%path, problem)
+      call find_foreign(self%path, .true., problem)
    end subroutine look_for_foreign
 
    !> Deletes the snapshots from a number on, and what was being written when a run was broken off.
@@ -265,17 +265,19 @@ contains
             return
          end do
       end if
-      call find_foreign(path, problem)
+      call find_foreign(path, .false., problem)
    end subroutine look_at_earlier_result
 
    ! Refuses what has a name of ours and is not ours.
-   subroutine find_foreign(path, problem)
+   subroutine find_foreign(path, but_checkpoints, problem)
       character(*), intent(in) :: path
+      logical, intent(in) :: but_checkpoints
       type(failure), intent(inout) :: problem   !! exit_input
       character(longest_path), allocatable :: found(:)
       integer :: i, k
 
       do i = 1, size(own_files)
+         if (but_checkpoints .and. any(own_files(i) == checkpoint_names)) cycle
          call find_files(path, trim(own_files(i)), found)
          do k = 1, size(found)
             if (is_foreign(path, trim(found(k)))) call problem%raise(exit_input, "'"//trim(found(k)) &

@@ -42,6 +42,16 @@ add_test(NAME refuses_checkpoints_of_another_run COMMAND ${CMAKE_COMMAND} "-DCOM
    "-DEXPECT=cannot go on from 'exchanged/checkpoint_.*': it is of another input than 'exchanged/input_used.nml'" -P ${run_and_expect})
 set_tests_properties(refuses_checkpoints_of_another_run PROPERTIES FIXTURES_REQUIRED exchanged_result TIMEOUT 30)
 
+# Of a checkpoint whose first byte is another the other one is taken.
+add_test(NAME damage_of_a_checkpoint COMMAND ${DYNSPH_BASH} -c
+   "rm -rf damaged && cp -r with_stop damaged && printf x | dd of=damaged/checkpoint_a.h5 conv=notrunc")
+set_tests_properties(damage_of_a_checkpoint PROPERTIES WORKING_DIRECTORY ${here} FIXTURES_REQUIRED "stopped_result;resumed_result"
+   FIXTURES_SETUP damaged_result TIMEOUT 30)
+add_test(NAME a_damaged_checkpoint_is_not_used COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;--resume;damaged"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT='damaged/checkpoint_a.h5' cannot be used: it is not one of dynsph;the run ended at" -P ${run_and_expect})
+set_tests_properties(a_damaged_checkpoint_is_not_used PROPERTIES FIXTURES_REQUIRED damaged_result TIMEOUT 60)
+
 refused(resume_of_nothing 3 1 "" "cannot go on with 'nowhere': it is not a directory" --resume nowhere)
 refused(resume_without_a_checkpoint 3 1 "old/run.log" "there is no checkpoint in 'old' to go on from" --resume old)
 refused(files_of_others 1 1 "mine/probes.dat" "'mine/probes.dat' was not written by a run of dynsph" --overwrite --output mine ${dam_break})
