@@ -214,7 +214,7 @@ contains
       type(command_line_t) :: anew
       type(settings_t) :: scene
       type(change_t), allocatable :: changes(:)
-      character(:), allocatable :: content, warnings(:)
+      character(:), allocatable :: content, ignored, warnings(:)
       type(cadence_t) :: when
       logical :: begun, later
 
@@ -241,7 +241,7 @@ contains
          call list_changes(content, complete_input(solutions_t(), scene), changes)
          call check_changes(changes, .false., problem)
          if (problem%raised()) return
-         call when%parse(trim(scene%output%checkpoint), content, by_clock=.true.)
+         call when%parse(trim(scene%output%checkpoint), ignored, by_clock=.true.)
          if (.not. when%is_never()) then
             call run_into_directory(anew, content, scene, warnings, problem)
             return

@@ -100,7 +100,7 @@ contains
       else if (other%host /= '' .and. other%host /= self%owner%host .and. self%owner%seen - other%seen < silence) then
          call refuse("; if that machine is no more, delete '"//self%path//"'")
       else
-         call self%beat()
+         call write_owner(self)
          ! Whoever held it may have deleted the file between our opening and locking it.
          if (is_deleted(c_descriptor(int(self%unit, c_int)))) call refuse('')
       end if
@@ -124,20 +124,23 @@ contains
    !> Tells other machines that this run is alive; to be called now and then.
    subroutine beat(self)
       class(directory_lock_t), intent(inout) :: self
-      integer(i8) :: now
-      integer :: ignored
 
       if (self%unit == no_unit) return
-      now = seconds()
-      if (now - self%owner%seen < beat_interval .and. now /= self%owner%seen) return
-      self%owner%seen = now
+      if (seconds() - self%owner%seen >= beat_interval) call write_owner(self)
+   end subroutine beat
+
+   subroutine write_owner(self)
+      type(directory_lock_t), intent(inout) :: self
+      integer :: ignored
+
+      self%owner%seen = seconds()
       rewind (self%unit, iostat=ignored)
       write (self%unit, '(a)', iostat=ignored) 'host = '//trim(self%owner%host)
       write (self%unit, '(a, i0)', iostat=ignored) 'process = ', self%owner%process
       write (self%unit, '(a)', iostat=ignored) 'started = '//trim(self%owner%started)
       write (self%unit, '(a, i0)', iostat=ignored) 'seen = ', self%owner%seen
       flush (self%unit, iostat=ignored)
-   end subroutine beat
+   end subroutine write_owner
 
    !> Gives the directory free.
    subroutine release(self)
