@@ -23,6 +23,7 @@ program bench
    use scene_setup, only: set_up_model, set_up_particles
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: errors_for_signals
    use step_state, only: step_t
    use text, only: short
    use time_step, only: advance, refresh
@@ -61,6 +62,7 @@ contains
       integer :: status(2)
 
       call start_process()
+      call errors_for_signals(pipes=.false.)
       call take_arguments(words)
       if (size(words) < 3) then
          call problem%raise(exit_input, 'usage: dynsph-bench SCENE.nml START_TIME STEPS [--set group.key=value ...]')

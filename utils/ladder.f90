@@ -23,6 +23,7 @@ program ladder
    use scene_setup, only: needed_features, set_up_model, set_up_particles
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use standard_output, only: errors_for_signals
    use step_state, only: step_t
    use text, only: behind
    use time_step, only: advance, refresh
@@ -64,6 +65,7 @@ contains
       integer :: status(3)
 
       call start_process()
+      call errors_for_signals(pipes=.false.)
       call take_arguments(words)
       status = 1
       if (size(words) >= 5) then

@@ -7,7 +7,7 @@
 module preliminary
    use derived_settings, only: set_reference_speed
    use equation_of_state, only: specific_pressure
-   use errors, only: exit_numerics, failure
+   use errors, only: exit_input, exit_numerics, exit_stopped, failure
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -15,12 +15,14 @@ module preliminary
    use omp_lib, only: omp_set_num_threads
    use progress, only: progress_t
    use quantiles, only: quantile, weighted_quantile
+   use result_directory, only: result_directory_t
    use run_log, only: log_t
    use scene_keys, only: resolution_range
    use scene_setup, only: count_particles, set_up_model, set_up_particles
    use settings, only: is_wall, settings_t
    use step_check, only: check_step
    use step_state, only: step_t
+   use stopping, only: stopping_t
    use text, only: short, to_text
    use threads, only: limit_threads
    use time_step, only: advance, refresh
@@ -54,10 +56,12 @@ module preliminary
 contains
 
    !> Finds the reference speed, and with it sets the sound speed for the Mach number asked for.
-   subroutine find_reference_speed(scene, log, problem)
+   subroutine find_reference_speed(scene, stop, directory, log, problem)
       type(settings_t), intent(inout) :: scene   !! find_reference_speed is .true., sound_speed a guess
+      type(stopping_t), intent(inout) :: stop
+      type(result_directory_t), intent(inout) :: directory   !! of the run proper
       type(log_t), intent(inout) :: log
-      type(failure), intent(inout) :: problem    !! exit_numerics: a coarse run failed
+      type(failure), intent(inout) :: problem    !! exit_numerics: a coarse run failed; exit_stopped; exit_input: no time for them
       type(settings_t) :: coarse
       type(finding_t) :: found
       real(dp) :: started, cost
@@ -68,7 +72,8 @@ contains
       call log%line(preliminary_text(scene))
       do pass = 1, 2
          coarse = coarse_scene(scene, coarse_share(pass)*scene%scene%resolution)
-         call run_coarse(coarse, log, found, problem)
+         call run_coarse(coarse, stop, directory, log, found, problem)
+         if (stop%reason /= '' .and. .not. problem%raised()) call say_that_it_was_stopped(scene, stop%reason, problem)
          if (.not. (problem%raised() .or. found%speed > 0)) call problem%raise(exit_numerics, &
             "&fluid reference_speed = 'auto': nothing moved in the preliminary run; give it a number")
          if (problem%raised()) return
@@ -162,8 +167,10 @@ contains
    end function share_of_cost
 
    ! Runs the coarse scene to its end, with the largest speeds for its only result.
-   subroutine run_coarse(scene, log, found, problem)
+   subroutine run_coarse(scene, stop, directory, log, found, problem)
       type(settings_t), intent(in) :: scene
+      type(stopping_t), intent(inout) :: stop   !! it ends earlier where there is a reason to
+      type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
       type(finding_t), intent(out) :: found
       type(failure), intent(inout) :: problem
@@ -184,7 +191,8 @@ contains
       call refresh(model, p, near, run, timers)
       do while (.not. run%scattered)
          call watch_speeds(model, p, run, found)
-         if (run%time >= scene%time%end_time) exit
+         call stop%look(directory)
+         if (run%time >= scene%time%end_time .or. stop%reason /= '') exit
          call advance(model, p, near, run, scene%time%end_time, timers)
          call check_step(model, p, run, scene%time%end_time, trouble)
          if (trouble%raised()) exit
@@ -199,6 +207,22 @@ contains
       if (found%steps > 0) found%speed = margin &
          *weighted_quantile(found%history(:found%steps), found%durations(:found%steps), time_share)
    end subroutine run_coarse
+
+   ! Coarse runs are not kept. Where their time is over already, beginning again would come to the same end.
+   subroutine say_that_it_was_stopped(scene, reason, problem)
+      type(settings_t), intent(in) :: scene
+      character(*), intent(in) :: reason
+      type(failure), intent(inout) :: problem
+      character(*), parameter :: where = "the preliminary runs for &fluid reference_speed = 'auto'"
+
+      if (reason == 'max_wall_time') then
+         call problem%raise(exit_input, '&time max_wall_time = '//short(scene%time%max_wall_time)//' s was over in '//where &
+                            //'; give more time, or reference_speed a number')
+      else
+         call problem%raise(exit_stopped, 'stopped in '//where//', of which nothing is kept: '//reason &
+                            //'. The same command begins again')
+      end if
+   end subroutine say_that_it_was_stopped
 
    ! Takes the base state's speeds; they count for as long as the step that led to them.
    subroutine watch_speeds(model, p, run, found)

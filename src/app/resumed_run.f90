@@ -17,6 +17,7 @@ module resumed_run
    use settings, only: settings_t
    use simulation, only: beginning_t, simulate
    use solution_register, only: solutions_t
+   use stopping, only: stopping_t
    use text, only: has_control_characters, short, to_text
    implicit none
    private
@@ -33,6 +34,7 @@ contains
       type(beginning_t) :: beginning
       type(settings_t) :: scene
       type(log_t) :: log
+      type(stopping_t) :: stop
       type(change_t), allocatable :: changes(:)
       character(:), allocatable :: input_text, remarks
       logical :: began
@@ -53,8 +55,10 @@ contains
       if (.not. problem%raised()) then
          input_text = with_origin(beginning%origin, beginning%input)
          call say_where_it_goes_on(log, beginning, remarks, changes)
-         call simulate(scene, set_up_model(scene), input_text, beginning, directory, log, began, problem)
+         call stop%begin(scene%time%max_wall_time, directory)
+         call simulate(scene, set_up_model(scene), input_text, beginning, stop, directory, log, began, problem)
          call log%close(problem)
+         call stop%finish()
       end if
       call beginning%file%close()
       if (beginning%forked .and. .not. began) call directory%discard(problem)

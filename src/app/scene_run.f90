@@ -12,6 +12,7 @@ module scene_run
    use settings, only: settings_t
    use simulation, only: beginning_t, simulate
    use solution_register, only: solutions_t
+   use stopping, only: stopping_t
    use text, only: short, to_text
    implicit none
    private
@@ -31,6 +32,7 @@ contains
       type(result_directory_t) :: directory
       type(log_t) :: log
       type(beginning_t) :: beginning
+      type(stopping_t) :: stop
       character(:), allocatable :: input_text
       logical :: began
       integer :: k
@@ -38,10 +40,12 @@ contains
       call directory%prepare(output_directory(options), options%overwrite, problem)
       if (problem%raised()) return
       call log%open(options%quiet)
+      call stop%begin(scene%time%max_wall_time, directory)
       do k = 1, size(warnings)
          call log%warn('input '//to_text(k), trim(warnings(k)))
       end do
-      if (scene%fluid%find_reference_speed) call find_and_check(options, content, scene, warnings, log, problem)
+      if (scene%fluid%find_reference_speed) call find_and_check(options, content, scene, warnings, stop, &
+                                                                       directory, log, problem)
       if (present(margins)) call log%line('margins of the time step: sound '//short(margins%sound)//', diffusion ' &
          //short(margins%diffusion)//', viscous '//short(margins%viscous)//' of a lattice''s limits; warnings about cfl mean ' &
          //'those of dynsph')
@@ -51,26 +55,29 @@ contains
          beginning%origin = ''
          input_text = beginning%input
          if (present(margins)) beginning%input = ''   ! dynsph would go on with its own
-         call simulate(scene, set_up_model(scene, margins), input_text, beginning, directory, log, began, problem)
+         call simulate(scene, set_up_model(scene, margins), input_text, beginning, stop, directory, log, began, problem)
       end if
       call log%close(problem)
+      call stop%finish()
       ! A run that could not start leaves nothing behind, and what was there before.
       if (began) call directory%release()
       if (.not. began) call directory%discard(problem)
    end subroutine run_into_directory
 
    !> Finds the reference speed, and checks the scene with it: so far it was checked with a guess.
-   subroutine find_and_check(options, content, scene, told, log, problem)
+   subroutine find_and_check(options, content, scene, told, stop, directory, log, problem)
       type(command_line_t), intent(in) :: options
       character(*), intent(in) :: content        !! of the scene's file
       type(settings_t), intent(inout) :: scene   !! find_reference_speed is .true.; on return with the speed found
       character(*), intent(in) :: told(:)        !! warnings
+      type(stopping_t), intent(inout) :: stop
+      type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
-      type(failure), intent(inout) :: problem    !! exit_numerics: a coarse run failed; exit_input
+      type(failure), intent(inout) :: problem    !! exit_numerics: a coarse run failed; exit_stopped; exit_input
       character(:), allocatable :: overrides(:), warnings(:), found
       integer :: k, n
 
-      call find_reference_speed(scene, log, problem)
+      call find_reference_speed(scene, stop, directory, log, problem)
       if (problem%raised()) return
       found = 'fluid.reference_speed='//to_text(scene%fluid%reference_speed)
       n = size(options%overrides)

@@ -50,11 +50,12 @@ module simulation
 contains
 
    !> Runs a checked scene and writes its results.
-   subroutine simulate(scene, model, input_text, beginning, directory, log, began, problem)
+   subroutine simulate(scene, model, input_text, beginning, stop, directory, log, began, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model       !! of the scene
       character(*), intent(in) :: input_text   !! complete input, for the snapshots
       type(beginning_t), intent(inout) :: beginning
+      type(stopping_t), intent(inout) :: stop   !! begun
       type(result_directory_t), intent(inout) :: directory
       type(log_t), intent(inout) :: log
       logical, intent(out) :: began             !! there are results to keep
@@ -62,7 +63,6 @@ contains
       type(cost_t) :: costs
       type(run_state_t) :: state
       type(checkpoints_t) :: saving
-      type(stopping_t) :: stop
       type(timers_t) :: timers
       type(failure) :: closing
       character(:), allocatable :: status, reason
@@ -76,19 +76,14 @@ contains
       if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
-      call stop%begin(scene%time%max_wall_time, started, directory)
       call set_up(scene, model, input_text, beginning, state, timers, problem)
-      if (problem%raised()) then
-         call stop%finish()
-         return
-      end if
+      if (problem%raised()) return
       call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0), &
                         merge(beginning%file%number + 1, 0_i8, beginning%turn > 0))
       call open_files(scene, input_text, beginning, state, saving, directory, log, problem)
       if (.not. problem%raised() .and. goes_on(beginning)) call sort_first(scene, model, beginning, state, timers, problem)
       if (problem%raised()) then
          call state%recorder%finish(directory, closing)
-         call stop%finish()
          return
       end if
       began = .true.
@@ -108,7 +103,6 @@ contains
       if (reason /= '') call log%keep(reason)
       call log%report_warnings()
       call closing_table(log, timers, seconds, state%recorder%budget, state%step, directory%path)
-      call stop%finish()
    end subroutine simulate
 
    pure logical function goes_on(beginning)

@@ -28,17 +28,16 @@ module stopping
 contains
 
    !> From here on signals wait until they are looked for. A file STOP that is there was meant for another run.
-   subroutine begin(self, longest, started, directory)
+   subroutine begin(self, longest, directory)
       class(stopping_t), intent(inout) :: self
-      real(dp), intent(in) :: longest   !! wall time [s]; 0: endless
-      real(dp), intent(in) :: started   !! since then, of the clock [s]
+      real(dp), intent(in) :: longest   !! wall time from now on [s]; 0: endless
       type(result_directory_t), intent(in) :: directory
       character(:), allocatable :: ignored
 
       call delete_file(directory%file(stop_name), ignored)
       self%reason = ''
       self%longest = longest
-      self%started = started
+      self%started = wall_seconds()
       self%last_look = -huge(1.0_dp)
       call self%signals%hold()
    end subroutine begin

@@ -13,6 +13,16 @@ add_test(NAME stopped_run_goes_on COMMAND ${CMAKE_COMMAND}
    "-DNOT_CREATED=with_stop/STOP;with_stop/run.lock" -P ${run_and_expect})
 set_tests_properties(stopped_run_goes_on PROPERTIES FIXTURES_REQUIRED stopped_result FIXTURES_SETUP resumed_result TIMEOUT 60)
 
+# Coarse runs that find the reference speed are stopped as the run proper is, and leave nothing; their time counts.
+set(auto "--set;fluid.reference_speed=auto;--set;scene.resolution=400;${dam_break}")
+add_test(NAME auto_stops_for_a_signal COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_at_once.bash;stopped_auto;$<TARGET_FILE:dynsph>;${auto}" -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=4
+   "-DEXPECT=stopped in the preliminary runs for .*, of which nothing is kept: SIGTERM. The same command begins again"
+   -DNOT_CREATED=stopped_auto -P ${run_and_expect})
+refused(wall_time_over_in_auto 1 1 "" "max_wall_time = 0.2 s was over in the preliminary runs for &fluid reference_speed = 'auto'"
+   --quiet --set time.max_wall_time=0.2 --set fluid.reference_speed=auto --set scene.resolution=400 ${dam_break})
+set_tests_properties(auto_stops_for_a_signal refuses_wall_time_over_in_auto PROPERTIES TIMEOUT 60)
+
 # What cannot be changed is named. resumed_and_refused(name arguments "message")
 function(resume_refused name message)
    add_test(NAME resume_refuses_${name} COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;--resume;with_stop;${ARGN}"
