@@ -9,7 +9,8 @@ set -euo pipefail
 unset GNUTERM   # a terminal of the user's that pictures have no use for
 study=$(basename "$0")
 script=$(cd "$(dirname "$0")" && pwd)/$study
-command="utils/studies/$study${*:+ $*}"
+called=utils/$(basename "$(dirname "$script")")/$study
+command="$called${*:+ $*}"
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 build=${DYNSPH_BUILD:-build} results=${DYNSPH_RESULTS:-results} jobs=${JOBS:-2}
 
@@ -19,7 +20,7 @@ needs() { # PROGRAM...
    local program
    for program in "$@"; do
       [ -x "$build/bin/$program" ] || {
-         echo "utils/studies/$study: build first: cmake -B build && cmake --build build -j2" >&2; exit 3; }
+         echo "$called: build first: cmake -B build && cmake --build build -j2" >&2; exit 3; }
    done
 }
 
@@ -62,16 +63,20 @@ picture() { # FILE
 has_gnuplot() { command -v gnuplot >/dev/null; }
 
 # --- Runs and their numbers.
-# run DIRECTORY SCENE KEY=VALUE...: a scene of input/, with one thread, unless its summary is there. Messages are beside the directory.
+# Whether a run has come to its end, good or bad; one that was stopped has not.
+ended() { [ -e "$1/summary.txt" ] && ! grep -qE '^status = stopped: (SIG|file|max_wall)' "$1/summary.txt"; }
+# run DIRECTORY SCENE KEY=VALUE...: a scene of input/, with one thread, unless it has ended; one that was broken off goes on.
+# Messages are beside the directory.
 run() {
-   local dir=$1 scene=$2 settings=() setting
+   local dir=$1 scene=$2 arguments=() setting
    shift 2
-   [ ! -e "$dir/summary.txt" ] || return 0
-   for setting in "$@"; do settings+=(--set "$setting"); done
+   ! ended "$dir" || return 0
+   for setting in "$@"; do arguments+=(--set "$setting"); done
+   arguments+=(--overwrite --output "$dir" "input/$scene.nml")
+   [ ! -e "$dir/input_used.nml" ] || arguments=(--resume "$dir")
    mkdir -p "$(dirname "$dir")"
    stamp
-   OMP_NUM_THREADS=1 "$build/bin/dynsph" --quiet --overwrite --output "$dir" "${settings[@]}" "input/$scene.nml" \
-      >"$dir.messages" 2>&1 </dev/null || echo "$dir: see $dir.messages" >&2
+   OMP_NUM_THREADS=1 "$build/bin/dynsph" --quiet "${arguments[@]}" >"$dir.messages" 2>&1 </dev/null || echo "$dir: see $dir.messages" >&2
 }
 # side_by_side FUNCTION: calls it for each line that comes in, with its words.
 side_by_side() { xargs -P "$jobs" -L 1 bash -c "$1 \"\$@\"" _; }
@@ -84,5 +89,5 @@ value() {
 # row CELL...: a line of a table; header CELL...: its first two.
 row() { printf '|'; printf ' %s |' "$@"; echo; }
 header() { row "$@"; row "${@/*/---}"; }
-export -f made_with stamp run value
+export -f made_with stamp ended run value
 export out build

@@ -1,0 +1,124 @@
+# Noise (claims L3 and A1) and the figures of the paper's campaign.
+
+# The largest resolution at which the three models that are compared have ended, at Ma 0.1.
+noise_models='alpha_0 alpha_0.01 dynamic'
+noise_size() {
+   local model
+   for model in $noise_models; do sizes dam_${model}_ma_0.1 Q@20; done | sort -n | uniq -c | awk '$1 == 3 { print $2 }' | tail -n 1
+}
+last_snapshot() { printf '%s\n' "$out/$1"/snapshot_??????.vtkhdf | tail -n 1; }
+
+# Vorticity at t = 20 in a rectangle that lies inside all fluids; P1, while the flow is violent, and how far models are apart before
+# and after the plunging jet lands. Prints tables; what the claims need becomes facts.
+noise() {
+   local size model run snapshots=() rectangle above
+   : >"$out/facts/noise"
+   size=$(noise_size)
+   [ -n "$size" ] || return 0
+   for model in $noise_models; do snapshots+=("$(last_snapshot "dam_${model}_ma_0.1_$size")"); done
+   rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "${snapshots[@]}" | tr -d , | awk '
+      NR > 1 { for (k = 1; k <= 4; k++) { x = $(k + 7); if (NR == 2 || (k < 3 ? x > r[k] : x < r[k])) r[k] = x } }
+      END { if (r[3] > r[1] && r[4] > r[2]) printf "%s,%s,%s,%s", r[1], r[2], r[3], r[4] }')
+   if [ -z "$rectangle" ]; then
+      printf '\n## Noise (L3, A1)\n\nAt d/dx = %s the fluids have no rectangle in common at t = 20.\n' "$size"
+      return
+   fi
+   printf '\n## Noise (L3, A1)\n\nd/dx = %s, Ma 0.1. Vorticity at t = 20 in the rectangle %s:\n\n' "$size" "$rectangle"
+   header model enstrophy 'above pi/(2h)' 'above pi/h' 'kinetic energy' 'above pi/(2h)' 'above pi/h'
+   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "$rectangle" "${snapshots[@]}" |
+      awk -v models="$noise_models" -v facts="$out/facts/noise" -v size="$size" '
+      BEGIN { split(models, model, " ") }
+      NR > 1 { printf "| %s | %s | %.2f %% | %.3f %% | %s | %.3f %% | %.4f %% |\n",
+                  model[NR - 1], $2, 100*$3, 100*$4, $5, 100*$6, 100*$7
+               share[model[NR - 1]] = $3 }
+      END { if (share["alpha_0"] > 0) print "enstrophy_dynamic_over_alpha_0", share["dynamic"]/share["alpha_0"] >facts
+            print "size", size >facts }'
+   echo
+   header 'model: P1, t = 7 to 20' deviation 'above f sqrt(d/g) = 10' 'above 40' 'largest rise from an octave to the next, from 20 on'
+   for model in $noise_models; do
+      run=$out/dam_${model}_ma_0.1_$size
+      printf '| %s |' "$model"
+      for above in 10 40; do
+         "$build/bin/dynsph-spectra" probe --probe P1 --from 7 --segment 2 --above $above --overwrite --output "$run/P1_spectrum.dat" "$run/probes.dat" |
+            awk -v above=$above '$1 == "P1" { if (above == 10) printf " %.4f |", $3; printf " %s %% |", $5 }'
+      done
+      # Mean density of an octave over that of the octave below it: less than 1 as long as the spectrum falls.
+      awk -v fact="rise_$model" -v facts="$out/facts/noise" '/^#/ || !($1 > 10) { next } { band = int(log($1/10)/log(2)); total[band] += $3; n[band]++; if (band > last) last = band }
+         END { for (band = 1; band < last; band++) { rise = total[band]/n[band]/(total[band - 1]/n[band - 1]); if (rise > worst) worst = rise }
+               printf " %.2f |\n", worst; print fact, worst >>facts }' "$run/P1_spectrum.dat"
+   done
+   echo
+   header 'rms difference of P1 to that of the dynamic model over its rms, means over 0.2' '2.6 to 4' '4 to 6.15' '6.15 to 7' '7 to 8' '8 to 20'
+   for model in alpha_0 alpha_0.01; do
+      awk -v probe=P1 -v windows="2.6 4 6.15 7 8 20" -v width=0.2 -f utils/studies/probe_difference.awk \
+         "$out/dam_dynamic_ma_0.1_$size/probes.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/ / | /g; s/^/| $model | /; s/\$/ |/"
+   done
+   awk -v probe=P1 -v windows="2.6 6.15 8 20" -v width=0.2 -f utils/studies/probe_difference.awk \
+      "$out/dam_dynamic_ma_0.1_$size/probes.dat" "$out/dam_alpha_0.01_ma_0.1_$size/probes.dat" |
+      awk '{ print "P1_before", $1; print "P1_after", $3 }' >>"$out/facts/noise"
+}
+
+# draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.
+draw() {
+   gnuplot -e "png='$out/figures/$2'; $3" "utils/plots/$1.gp" && picture "$out/figures/$2"
+}
+# Lists for curves.gp: tables of runs that are there, and labels for them, '_' for a blank.
+files='' labels=''
+curves_of() { # LABEL=RUN...
+   local pair
+   files='' labels=''
+   for pair in "$@"; do
+      [ -s "$out/${pair#*=}/energy.dat" ] || continue
+      files+=" $out/${pair#*=}/energy.dat" labels+=" ${pair%%=*}"
+   done
+   [ -n "$files" ]
+}
+draw_figures() {
+   local size alpha pairs model runs=''
+   mkdir -p "$out/figures"
+   # The patch.
+   size=$(finest patch_alpha_0.01 Q@8)
+   pairs=()
+   for alpha in 0 0.01 0.02 0.03; do pairs+=("α_=_$alpha=patch_alpha_${alpha}_$size"); done
+   if curves_of "${pairs[@]}"; then
+      draw curves patch_dissipation.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Water patch, d/dx = $size'"
+      draw curves patch_density.png "tables='$files'; labels='$labels'; what='density_variation'; heading='Water patch, d/dx = $size: largest of a particle'"
+   fi
+   # Constant coefficients.
+   size=$(finest dam_alpha_0.01_ma_0.05 Q@12)
+   pairs=()
+   for alpha in $alphas; do pairs+=("α_=_$alpha=dam_alpha_${alpha}_ma_0.05_$size"); done
+   pairs+=("dynamic=dam_dynamic_ma_0.05_$size")
+   if curves_of "${pairs[@]}"; then
+      draw curves dissipation_by_model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, d/dx = $size, Ma 0.05'"
+   fi
+   for model in alpha_0.01 dynamic; do
+      pairs=()
+      for size in $(sizes dam_${model}_ma_0.1 Q@8); do pairs+=("d/dx_=_$size=dam_${model}_ma_0.1_$size"); done
+      if curves_of "${pairs[@]}"; then
+         draw curves resolution_$model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, $model, Ma 0.1'"
+         draw curves resolution_log_$model.png "tables='$files'; labels='$labels'; what='Q'; logarithmic=1; heading='Dam break, $model, Ma 0.1'"
+      fi
+   done
+   pairs=()
+   for size in $(sizes dam_dynamic_ma_0.05 Q@8); do pairs+=("d/dx_=_$size=dam_dynamic_ma_0.05_$size"); done
+   if curves_of "${pairs[@]}"; then
+      draw curves coefficients.png "tables='$files'; labels='$labels'; what='alpha_mean alpha_max delta_mean delta_max'; heading='Dynamic model, Ma 0.05'"
+   fi
+   size=$(noise_size)
+   if [ -n "$size" ] && [ -e "$out/dam_dynamic_ma_0.1_$size/P1_spectrum.dat" ]; then draw_noise "$size"; fi
+}
+draw_noise() { # D/DX
+   local model run stem spectra='' fields='' probes='' labels='' quoted=''
+   for model in $noise_models; do
+      run=$out/dam_${model}_ma_0.1_$1
+      stem=$(basename "$(last_snapshot "dam_${model}_ma_0.1_$1")" .vtkhdf)
+      spectra+=" $run/vorticity_spectrum_${stem#snapshot_}.dat" fields+=" $run/vorticity_field_${stem#snapshot_}.dat" probes+=" $run/P1_spectrum.dat"
+      labels+=" ${model/alpha_/α_=_}"
+      quoted+=" \"${model/alpha_/α = }\""
+   done
+   draw vorticity_spectra vorticity_spectra.png "tables='$spectra'; labels='$labels'"
+   draw vorticity_fields vorticity_fields.png "tables='$fields'; labels='$labels'; top=0.7"
+   draw probe_spectra P1_spectra.png "tables='$probes'; labels='$quoted'; probe='P1'"
+   draw impact P1.png "runs='$(for model in alpha_0.01 dynamic; do echo "$out/dam_${model}_ma_0.1_$1"; done | tr '\n' ' ')'; labels='α_=_0.01 dynamic'"
+}

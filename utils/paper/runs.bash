@@ -1,0 +1,102 @@
+# The runs of the paper's campaign: a line NAME SCENE KEY=VALUE... each, in the order in which they are wanted.
+#
+# Names: dam_MODEL_ma_MA_D/DX and patch_MODEL_D/DX; bar_... are the same with starts that differ by 1e-12, reading_... with other
+# readings of what the paper leaves unsaid. MODEL: alpha_VALUE (delta = 0.1), dynamic (Re = 1e6), strain_rate (its ||D|| clipped).
+
+# Resolutions of a tier: three of dam breaks, those of the patch and of single questions.
+case $tier in
+smoke) coarse=12 middle=16 fine=24 patch=6 question=12 starts=1 ;;
+quick) coarse=20 middle=30 fine=40 patch=16 question=20 starts=3 ;;
+*) coarse=50 middle=100 fine=200 patch=50 question=50 starts=4 ;;
+esac
+
+model_settings() {
+   case $1 in
+   alpha_*) echo "model.diffusion=constant model.delta=0.1 model.alpha=${1#alpha_}" ;;
+   dynamic) echo 'model.diffusion=dynamic fluid.reynolds=1e6' ;;
+   strain_rate) echo 'model.diffusion=dynamic model.limiter=strain_rate fluid.reynolds=1e6' ;;
+   esac
+}
+# Pictures and spectra need snapshots: fewer of large runs.
+snapshots() { # MODEL D/DX
+   local fields=velocity,pressure,vorticity every=1
+   case $1 in alpha_*) ;; *) fields+=,alpha,delta ;; esac
+   if [ "$2" -ge 800 ]; then every=5; fi
+   echo "'output.snapshots=$every time' output.fields=$fields"
+}
+dam() { # MODEL MA D/DX [KEY=VALUE...]
+   echo "dam_$1_ma_$2_$3 dam_break scene.resolution=$3 fluid.mach=$2 $(model_settings "$1") $(snapshots "$1" "$3") ${*:4}"
+}
+# What acts is alpha h c0: at another d/dx than the paper's 100 alpha is changed so that this stays. MODEL has the paper's alpha.
+patch() { # MODEL D/DX [SCENE NAME]
+   local alpha
+   alpha=$(awk -v a="${1#alpha_}" -v n="$2" 'BEGIN { print a*n/100 }')
+   echo "${4:-patch}_$1_$2 ${3:-water_patch} scene.resolution=$2 model.diffusion=constant model.delta=0.1 model.alpha=$alpha" \
+      "'output.snapshots=5 time'"
+}
+# Starts that differ by less than round-off does after some steps; 0 is the unchanged one.
+bars() { # MODEL MA
+   local k
+   for ((k = 0; k <= starts; k++)); do
+      echo "bar_$1_ma_$2_$k dam_break scene.resolution=$question fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
+         output.snapshots=never output.probes=never
+   done
+}
+# reading | what is read otherwise
+readings() {
+   cat <<'TABLE'
+zero_pressure | body(1).pressure=zero
+hydrostatic_pressure | body(1).pressure=hydrostatic
+mirror_images | domain.images=mirror
+strain_rate | model.limiter=strain_rate
+no_viscosity | fluid.reynolds=0
+cfl_0.75 | time.cfl=0.75
+every_stage | time.diffusion=every_stage
+h_1.5 | model.smoothing_ratio=1.5
+closed_top | domain.top=free_slip
+TABLE
+}
+reading_runs() {
+   local name settings model
+   while IFS='|' read -r name settings; do
+      for model in alpha_0.01 dynamic; do
+         case $model$name in alpha_*strain_rate* | alpha_*no_viscosity*) continue ;; esac
+         echo "reading_${model}_$name dam_break scene.resolution=$question fluid.mach=0.1 $(model_settings $model) $settings" \
+            output.snapshots=never output.probes=never
+      done
+   done < <(readings)
+}
+
+alphas='0 0.005 0.01 0.02 0.03'
+campaign() {
+   local alpha size model
+   if [ "$tier" = full ]; then
+      dam dynamic 0.1 400              # L3, L4
+      patch alpha_0.01 100             # W1, W2
+      dam alpha_0.01 0.1 400           # D4, A1
+      patch alpha_0 100                # W3
+      patch alpha_0.03 100
+      dam dynamic 0.05 480             # L1, L2
+      for alpha in 0.01 0 0.005 0.03 0.02; do dam alpha_$alpha 0.05 480; done   # D1 to D3
+      patch alpha_0.02 100
+      for model in alpha_0.01 dynamic alpha_0; do dam $model 0.1 800; done      # A1, D4, L4
+      dam dynamic 0.1 1600
+      return
+   fi
+   # The longest first, so that all cores are busy to the end.
+   dam dynamic 0.05 $fine                                            # L1, L2
+   for model in dynamic alpha_0.01 alpha_0; do dam $model 0.1 $fine; done   # L3, L4, D4, A1
+   for alpha in 0.03 0 0.01; do patch alpha_$alpha $patch; done      # W1 to W3
+   patch alpha_0.01 $patch water_patch_wide patchwide
+   for alpha in $alphas; do                                          # D1 to D3
+      dam alpha_$alpha 0.05 $middle "$([ $alpha != 0.01 ] || echo output.fields=velocity,pressure,vorticity,dissipation)"
+   done
+   dam dynamic 0.05 $middle
+   dam strain_rate 0.05 $middle
+   for size in $middle $coarse; do
+      for model in dynamic alpha_0.01; do dam $model 0.1 $size; done
+   done
+   for model in $(printf 'alpha_%s ' $alphas) dynamic; do bars "$model" 0.05; done
+   for model in alpha_0 alpha_0.01 dynamic; do bars "$model" 0.1; done
+   reading_runs
+}

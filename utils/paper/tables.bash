@@ -1,0 +1,247 @@
+# The tables of the paper's campaign, from what its runs have left.
+
+# facts of each run, made again where the run has gone on.
+gather() {
+   local dir name files
+   for dir in "$out"/*/; do
+      name=$(basename "$dir")
+      [ -s "$dir/energy.dat" ] || continue
+      [ "$out/facts/$name" -nt "$dir/energy.dat" ] && [ "$out/facts/$name" -nt "$dir/summary.txt" ] && continue
+      files=()
+      if ended "$dir"; then files=("$dir/summary.txt"); fi
+      {
+         awk -f utils/paper/facts.awk "${files[@]}" "$dir/energy.dat"
+         sed -n 's/^│ dynsph *\(.*[^ ]\) *│$/version \1/p' "$dir/run.log" | tail -n 1
+         sed -n 's/^   \(resolution\|mach\|alpha\) = /\1_given /p' "$dir/input_used.nml"
+         case $name in patch_*) densities "$dir" ;; esac
+      } >"$out/facts/$name"
+   done
+}
+# Of all snapshots of a run, the largest share that 99.9 % of the particles do not exceed, and the largest rms.
+densities() { # DIRECTORY
+   local snapshot
+   for snapshot in "$1"/snapshot_??????.vtkhdf; do
+      [ -e "$snapshot" ] || continue
+      "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$out/facts/snapshot.txt" >/dev/null
+      awk -f utils/paper/density.awk "$out/facts/snapshot.txt"
+   done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2 } END { if (NR) printf "variation_999 %s\nvariation_rms %s\n", share, rms }'
+   rm -f "$out/facts/snapshot.txt"
+}
+# fact RUN KEY [FORM]: '-' where it is not known.
+fact() {
+   awk -v key="$2" -v form="${3:-%s}" '$1 == key { sub(/^[^ ]* /, ""); printf form, $0; found = 1; exit } END { if (!found) printf "-" }' \
+      "$out/facts/$1" 2>/dev/null || printf -- -
+}
+# Resolutions at which there is a run NAME_D/DX that knows KEY, the coarsest first.
+sizes() { # NAME KEY
+   local file
+   for file in "$out/facts/$1"_*; do
+      [[ ${file##*_} =~ ^[0-9]+$ ]] && [ "${file%_*}" = "$out/facts/$1" ] && grep -q "^$2 " "$file" && echo "${file##*_}"
+   done | sort -n
+   true
+}
+finest() { sizes "$@" | tail -n 1; }
+# calculate EXPRESSION [FORM]: '-' where a number is not there.
+calculate() {
+   case " $1 " in *' - '* | *'(-)'* | *'(- '*) printf -- -; return ;; esac
+   awk -v form="${2:-%.9g}" "BEGIN { printf form, $1 }"
+}
+ratio() { # A B [FORM]
+   if [ "$1" = - ] || [ "$2" = - ]; then printf -- -; else calculate "($1)/($2)" "${3:-%.2f}"; fi
+}
+# Of numbers, (largest - least)/mean.
+spread() {
+   printf '%s\n' "$@" | awk '$1 == "-" { next } { if (!n++ || $1 < low) low = $1; if (n == 1 || $1 > high) high = $1; sum += $1 }
+      END { if (n > 1 && sum > 0) printf "%.3f", (high - low)/(sum/n); else printf "-" }'
+}
+# How far runs whose starts differ by 1e-12 are apart: standard deviation of a fact.
+deviation() { # MODEL MA KEY
+   local file
+   for file in "$out/facts/bar_$1_ma_$2"_[0-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
+      awk '$1 == "-" { next } { n++; sum += $1; square += $1^2 } END { if (n > 2) { v = (square - sum^2/n)/(n - 1); printf "%.3f", sqrt(v > 0 ? v : 0) } else printf "-" }'
+}
+# verdict KIND PAPER OURS: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %.
+verdict() {
+   if [ "$3" = - ]; then echo 'not computed'; return; fi
+   awk -v kind="$1" -v paper="$2" -v ours="$3" 'BEGIN {
+      off = ours/paper - 1
+      if (kind == "below") print off <= 0 ? "holds" : off <= 0.3 ? "roughly" : "does not hold"
+      else { if (off < 0) off = -off; print off <= 0.1 ? "holds" : off <= 0.3 ? "roughly" : "does not hold" }
+   }'
+}
+# A fact at all resolutions, 'value (d/dx), ...'.
+each() { # NAME KEY FORM
+   local size text=''
+   for size in $(sizes "$1" "$2"); do text+=", $(fact "$1_$size" "$2" "$3") ($size)"; done
+   [ -n "$text" ] && echo "${text#, }" || echo -
+}
+# One number of the paper against a fact at all resolutions; the verdict is on the finest.
+simple() { # CLAIM STATEMENT KIND PAPER NAME KEY [FORM] [NOTE]
+   local size
+   size=$(finest "$5" "$6")
+   row "$1" "$2" "$([ "$3" = below ] && echo "< $4" || echo "~ $4")" "$(each "$5" "$6" "${7:-%.3g}")${8:+; $8}" \
+      "$(verdict "$3" "$4" "$(fact "$5_$size" "$6")")" "\`$5\`"
+}
+# The same for a number that is reckoned from others: OURS has its text, LAST what is judged.
+reckoned() { # CLAIM STATEMENT KIND PAPER OURS LAST RUNS
+   row "$1" "$2" "$([ "$3" = below ] && echo "< $4" || echo "~ $4")" "$5" "$(verdict "$3" "$4" "$6")" "\`$7\`"
+}
+# Ratio of two facts of a run at all resolutions.
+quotients() { # CLAIM STATEMENT PAPER NAME KEY KEY
+   local size text='' last=-
+   for size in $(sizes "$4" "$5"); do
+      last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$4_$size" "$6")")
+      text+=", $last ($size)"
+   done
+   reckoned "$1" "$2" about "$3" "${text#, }" "$last" "$4"
+}
+
+claims() {
+   local dam=dam_alpha_0.01_ma_0.05 dynamic=dam_dynamic_ma_0.05 size alpha text values bar model last
+   header claim statement paper 'ours (d/dx)' verdict runs
+   # The water patch.
+   simple W1 'density varies by less than 1 %: largest of a particle, at any time' below 0.01 patch_alpha_0.01 variation %.4f \
+      "beyond 1 % for $(each patch_alpha_0.01 variation_beyond %.4f) of the time"
+   simple W1 'the same, of 99.9 % of the particles in each snapshot' below 0.01 patch_alpha_0.01 variation_999 %.4f \
+      "rms $(each patch_alpha_0.01 variation_rms %.4f)"
+   simple W1 'error of the total energy' below 0.003 patch_alpha_0.01 balance %.1e
+   simple W2 'dissipated at t = 140' about 0.55 patch_alpha_0.01 Q@140 %.3f "2 d wide: $(each patchwide_alpha_0.01 Q@140 %.3f)"
+   size=$(for alpha in 0 0.01 0.03; do sizes patch_alpha_$alpha Q@140; done | sort -n | uniq -c | awk '$1 == 3 { print $2 }' | tail -n 1)
+   if [ -n "$size" ]; then
+      text='' values=()
+      for alpha in 0 0.01 0.02 0.03; do
+         values+=("$(fact "patch_alpha_${alpha}_$size" Q@140 %.3f)")
+         text+=", ${values[-1]}"
+      done
+      reckoned W3 "Q(140) for alpha = 0, 0.01, 0.02, 0.03 hardly moves: spread" below 0.05 "$(spread "${values[@]}") (${text#, })" \
+         "$(spread "${values[@]}")" "patch_alpha_*_$size"
+   fi
+   quotients W3 'Q_alpha/Q_delta at alpha = 0.01' 1 patch_alpha_0.01 Q_alpha/dE@140 Q_delta/dE@140
+   quotients W3 'Q_delta/Q_alpha at alpha = 0.03' 0.5 patch_alpha_0.03 Q_delta/dE@140 Q_alpha/dE@140
+   # The dam break with constant coefficients.
+   simple D1 'error of the total energy, Ma 0.05' below 0.005 $dam balance %.1e
+   simple D1 'dissipated at t = 15.5' about 0.8 $dam Q@15.5 %.3f "+- $(deviation alpha_0.01 0.05 Q@15.5); 0.8 at t = $(each $dam t_80 %.1f)"
+   simple D1 'dissipated at t = 20' about 0.9 $dam Q@20 %.3f "+- $(deviation alpha_0.01 0.05 Q@20)"
+   simple D2 'first maximum of E_K' about 3.0 $dam time_kinetic_maximum %.2f
+   simple D2 'maximum of E_P' about 5.5 $dam time_potential_maximum %.2f
+   simple D2 'second maximum of E_K' about 6.8 $dam time_kinetic_maximum_2 %.2f
+   simple D2 'elastic peak' about 8.5 $dam time_elastic_peak %.2f
+   size=$(for alpha in $alphas; do sizes dam_alpha_${alpha}_ma_0.05 Q@20; done | sort -n | uniq -c | awk '$1 == 5 { print $2 }' | tail -n 1)
+   if [ -n "$size" ]; then
+      text='' values=()
+      for alpha in $alphas; do
+         values+=("$(fact "dam_alpha_${alpha}_ma_0.05_$size" Q@20 %.3f)")
+         text+=", ${values[-1]} +- $(deviation alpha_$alpha 0.05 Q@20)"
+      done
+      reckoned D3 "Q(20) for alpha = ${alphas// /, }: spread" below 0.05 "$(spread "${values[@]}") (${text#, })" "$(spread "${values[@]}")" \
+         "dam_alpha_*_ma_0.05_$size"
+   fi
+   quotients D3 'Q_delta/Q_alpha(20) at alpha = 0.005, Ma/alpha = 10' 1 dam_alpha_0.005_ma_0.05 Q_delta/dE@20 Q_alpha/dE@20
+   quotients D3 'Q_delta/Q_alpha(20) at alpha = 0.03' 0.333 dam_alpha_0.03_ma_0.05 Q_delta/dE@20 Q_alpha/dE@20
+   quotients D4 'Q_alpha/Q_delta(20), Ma 0.1, at each d/dx' 1 dam_alpha_0.01_ma_0.1 Q_alpha/dE@20 Q_delta/dE@20
+   all_sizes D4 'Q(20) nearly the same at each d/dx: spread' dam_alpha_0.01_ma_0.1 alpha_0.01
+   # The dynamic model.
+   simple L1 'mean alpha_i at t = 12' about 0.002 $dynamic alpha_mean@12 %.4f
+   simple L1 'mean delta_i' about 0.04 $dynamic delta_mean@12 %.3f
+   simple L1 'largest alpha_i' about 0.01 $dynamic alpha_max@12 %.4f "strain rate clipped: $(each dam_strain_rate_ma_0.05 alpha_max@12 %.4f)"
+   simple L1 'largest delta_i' about 0.2 $dynamic delta_max@12 %.3f
+   quotients L2 'Q_alpha/Q_delta(20)' 1 $dynamic Q_alpha/dE@20 Q_delta/dE@20
+   against L2 'Q(12) over that with alpha = 0' dam_alpha_0_ma_0.05 $dynamic Q@12 alpha_0
+   against L2 'Q_alpha(20) over that with alpha = 0.005' dam_alpha_0.005_ma_0.05 $dynamic Q_alpha/dE@20 alpha_0.005
+   against L2 'Q_delta(20) over that with alpha = 0.005' dam_alpha_0.005_ma_0.05 $dynamic Q_delta/dE@20 alpha_0.005
+   simple L3 'Q_omega(20), Ma 0.1' below 0.01 dam_dynamic_ma_0.1 Q_omega/dE@20 %.1e
+   judged L3 'share of enstrophy above pi/(2h) at t = 20, Ma 0.1, over that with alpha = 0' below 1 enstrophy_dynamic_over_alpha_0
+   judged A1 'P1 of both models coincides to t = 6.15 (we say: to 2 %): rms of the difference, from 2.6 on' below 0.02 P1_before
+   judged A1 'and is shifted in time after it: the same from 8 on' - - P1_after
+   judged A1 'no spurious high frequencies: rise of the spectrum from an octave to the next, dynamic' below 1 rise_dynamic
+   judged A1 'the same, alpha = 0.01' below 1 rise_alpha_0.01
+   all_sizes L4 'Q(20) nearly the same at each d/dx: spread' dam_dynamic_ma_0.1 dynamic
+}
+# What `noise` found. KIND -: a number that there is no verdict on.
+judged() { # CLAIM STATEMENT KIND PAPER KEY
+   local value
+   value=$(fact noise "$5" %.3g)
+   row "$1" "$2" "${3/below/<} $4" "$value ($(fact noise size))" "$([ "$3" = - ] && echo '-' || verdict "$3" "$4" "$value")" '`dam_*_ma_0.1`'
+}
+# How much Q(20) changes with the resolution.
+all_sizes() { # CLAIM STATEMENT NAME MODEL
+   local size values=()
+   for size in $(sizes "$3" Q@20); do values+=("$(fact "$3_$size" Q@20 %.3f)"); done
+   reckoned "$1" "$2" below 0.05 "$(spread "${values[@]}"): $(each "$3" Q@20 %.3f), +- $(deviation "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
+}
+# A fact of the dynamic model over that of a run with constant coefficients, with what both vary by.
+against() { # CLAIM STATEMENT OTHER NAME KEY MODEL
+   local size text='' last=-
+   for size in $(sizes "$4" "$5"); do
+      [ "$(fact "$3_$size" "$5")" != - ] || continue
+      last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$3_$size" "$5")")
+      text+=", $last = $(fact "$4_$size" "$5" %.3f)/$(fact "$3_$size" "$5" %.3f) ($size)"
+   done
+   text+=", +- $(deviation dynamic 0.05 "$5") and $(deviation "$6" 0.05 "$5")"
+   reckoned "$1" "$2" about 1 "${text#, }" "$last" "$4, $3"
+}
+
+# --- What starts that differ by 1e-12 do.
+error_bars() {
+   local model mach key cells
+   header 'model, Ma' runs 'Q_alpha(12)' 'Q_delta(12)' 'Q(12)' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)'
+   for mach in 0.05 0.1; do
+      for model in $(printf 'alpha_%s ' $alphas) dynamic; do
+         [ -e "$out/facts/bar_${model}_ma_${mach}_0" ] || continue
+         cells=()
+         for key in Q_alpha/dE@12 Q_delta/dE@12 Q@12 Q_alpha/dE@20 Q_delta/dE@20 Q@15.5 Q@20; do
+            cells+=("$(fact "bar_${model}_ma_${mach}_0" $key %.3f) +- $(deviation "$model" "$mach" $key)")
+         done
+         row "$model, $mach" "$(ls "$out/facts/bar_${model}_ma_${mach}"_[0-9] | wc -l)" "${cells[@]}"
+      done
+   done
+}
+# --- What other readings of the paper do.
+ablation() {
+   local model name base
+   header reading model 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
+   for model in alpha_0.01 dynamic; do
+      base=bar_${model}_ma_0.1_0
+      [ ! -e "$out/facts/$base" ] || reading 'as it is here' $model $base
+      while IFS='|' read -r name _; do
+         name=${name% }
+         [ ! -e "$out/facts/reading_${model}_$name" ] || reading "$name" $model "reading_${model}_$name"
+      done < <(readings)
+   done
+}
+reading() { # WORDS MODEL RUN
+   row "${1//_/ }" "${2//_/ }" "$(fact "$3" time_kinetic_maximum %.2f)" "$(fact "$3" time_potential_maximum %.2f)" "$(fact "$3" time_kinetic_maximum_2 %.2f)" \
+      "$(fact "$3" Q_alpha/dE@20 %.3f)" "$(fact "$3" Q_delta/dE@20 %.3f)" "$(fact "$3" Q@15.5 %.3f)" "$(fact "$3" Q@20 %.3f)" "$(fact "$3" balance %.1e)" \
+      "$(fact "$3" alpha_mean@12 %.4f)" "$(fact "$3" alpha_max@12 %.4f)" "$(fact "$3" delta_mean@12 %.3f)"
+}
+# --- All runs.
+all_runs() {
+   local name
+   header run particles steps 'reached t' 'ns a particle-step' Q_alpha Q_delta Q 'balance error' version
+   ls "$out/facts" | grep -E '^(dam|patch|patchwide)_' | sort -V | while read -r name; do
+      row "\`$name\`" "$(fact "$name" particles)" "$(fact "$name" steps)" \
+         "$(fact "$name" t %.4g)$(ended "$out/$name" || echo ' (under way)')" "$(fact "$name" ns_per_particle_step_per_core %.0f)" \
+         "$(fact "$name" Q_alpha %.3f)" "$(fact "$name" Q_delta %.3f)" "$(fact "$name" Q_total %.3f)" "$(fact "$name" balance %.1e)" "$(fact "$name" version)"
+   done
+}
+
+write_tables() {
+   gather
+   noise >"$out/noise.md"
+   {
+      echo 'Times are t sqrt(g/d), energies shares of Delta E_M^tot. Holds: the number as the paper has it, or within 10 % of one that it gives as'
+      echo "approximate; roughly: within 30 %; judged at the finest d/dx. '+-': standard deviation of runs whose starts differ by 1e-12, d/dx = $question."
+      echo
+      claims
+      cat "$out/noise.md"
+      printf '\n## What single runs vary by\n\nRuns whose starts differ by 1e-12 (`body(1).velocity`), d/dx = %s: value and standard deviation.\n\n' "$question"
+      error_bars
+      printf '\n## Other readings of the paper\n\nd/dx = %s, Ma 0.1, one thing changed at a time.\n\n' "$question"
+      ablation
+      printf '\n## All runs\n\n'
+      all_runs
+      echo
+      echo "\`utils/paper/reproduce TIER RUN\` makes one of them; RUN/input_used.nml in $(basename "$out") is its input."
+   } >"$out/table.md"
+   publish paper "The paper's claims" "$out/table.md"
+}
