@@ -64,12 +64,12 @@ draw() {
 }
 # Lists for curves.gp: tables of runs that are there, and labels for them, '_' for a blank.
 files='' labels=''
-curves_of() { # LABEL=RUN...
+curves_of() { # LABEL:RUN...
    local pair
    files='' labels=''
    for pair in "$@"; do
-      [ -s "$out/${pair#*=}/energy.dat" ] || continue
-      files+=" $out/${pair#*=}/energy.dat" labels+=" ${pair%%=*}"
+      [ -s "$out/${pair#*:}/energy.dat" ] || continue
+      files+=" $out/${pair#*:}/energy.dat" labels+=" ${pair%%:*}"
    done
    [ -n "$files" ]
 }
@@ -79,7 +79,7 @@ draw_figures() {
    # The patch.
    size=$(finest patch_alpha_0.01 Q@8)
    pairs=()
-   for alpha in 0 0.01 0.02 0.03; do pairs+=("α_=_$alpha=patch_alpha_${alpha}_$size"); done
+   for alpha in 0 0.01 0.02 0.03; do pairs+=("α_=_$alpha:patch_alpha_${alpha}_$size"); done
    if curves_of "${pairs[@]}"; then
       draw curves patch_dissipation.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Water patch, d/dx = $size'"
       draw curves patch_density.png "tables='$files'; labels='$labels'; what='density_variation'; heading='Water patch, d/dx = $size: largest of a particle'"
@@ -87,21 +87,21 @@ draw_figures() {
    # Constant coefficients.
    size=$(finest dam_alpha_0.01_ma_0.05 Q@12)
    pairs=()
-   for alpha in $alphas; do pairs+=("α_=_$alpha=dam_alpha_${alpha}_ma_0.05_$size"); done
-   pairs+=("dynamic=dam_dynamic_ma_0.05_$size")
+   for alpha in $alphas; do pairs+=("α_=_$alpha:dam_alpha_${alpha}_ma_0.05_$size"); done
+   pairs+=("dynamic:dam_dynamic_ma_0.05_$size")
    if curves_of "${pairs[@]}"; then
       draw curves dissipation_by_model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, d/dx = $size, Ma 0.05'"
    fi
    for model in alpha_0.01 dynamic; do
       pairs=()
-      for size in $(sizes dam_${model}_ma_0.1 Q@8); do pairs+=("d/dx_=_$size=dam_${model}_ma_0.1_$size"); done
+      for size in $(sizes dam_${model}_ma_0.1 Q@8); do pairs+=("d/dx_=_$size:dam_${model}_ma_0.1_$size"); done
       if curves_of "${pairs[@]}"; then
          draw curves resolution_$model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, $model, Ma 0.1'"
          draw curves resolution_log_$model.png "tables='$files'; labels='$labels'; what='Q'; logarithmic=1; heading='Dam break, $model, Ma 0.1'"
       fi
    done
    pairs=()
-   for size in $(sizes dam_dynamic_ma_0.05 Q@8); do pairs+=("d/dx_=_$size=dam_dynamic_ma_0.05_$size"); done
+   for size in $(sizes dam_dynamic_ma_0.05 Q@8); do pairs+=("d/dx_=_$size:dam_dynamic_ma_0.05_$size"); done
    if curves_of "${pairs[@]}"; then
       draw curves coefficients.png "tables='$files'; labels='$labels'; what='alpha_mean alpha_max delta_mean delta_max'; heading='Dynamic model, Ma 0.05'"
    fi
