@@ -30,10 +30,24 @@ quick_study(leaving_out_is_told leaving_out 120
 quick_study(runs_go_on reliability 400 "23 of 23 cases end with the same bits" "not the same;exit code")
 set_tests_properties(runs_go_on PROPERTIES PROCESSORS 2)
 
+# The paper's campaign: every claim gets a number, and what was stopped goes on where it was.
+set(paper "${CMAKE_COMMAND};-E;env;DYNSPH_BUILD=${PROJECT_BINARY_DIR};DYNSPH_RESULTS=${here}/studies;JOBS=1;GOMP_SPINCOUNT=1000;${DYNSPH_BASH};${PROJECT_SOURCE_DIR}/utils/paper/reproduce;smoke")
+add_test(NAME paper_campaign_is_stopped COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_campaign.bash;${here}/studies/paper_smoke/dam_dynamic_ma_0.05_24;${paper};dam_dynamic_ma_0.05_24"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=4 "-DEXPECT=1 runs have not ended: call it again" -DCREATED=studies/paper_smoke -P ${run_and_expect})
+set_tests_properties(paper_campaign_is_stopped PROPERTIES FIXTURES_SETUP stopped_campaign TIMEOUT 120)
+add_test(NAME paper_campaign_goes_on COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${paper}" -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT=dam_dynamic_ma_0.05_24  .* t=.*;paper_smoke/figures/dynamic_model.png" "-DREJECT=see ;warning;not ended" -P ${run_and_expect})
+set_tests_properties(paper_campaign_goes_on PROPERTIES FIXTURES_REQUIRED stopped_campaign FIXTURES_SETUP campaign TIMEOUT 300)
+add_test(NAME paper_claims_have_numbers COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=grep;-cE;^. [WDLA]. .*. (holds|roughly|does not hold) .;studies/paper_smoke/paper.md" -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT=^29" "-DREJECT=nan" -P ${run_and_expect})
+set_tests_properties(paper_claims_have_numbers PROPERTIES FIXTURES_REQUIRED campaign TIMEOUT 30)
+
 # All studies at once, in their quick forms: those above are not repeated, and each leaves its tables under its head.
 add_test(NAME all_studies_leave_tables COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${CMAKE_COMMAND};-E;env;DYNSPH_BUILD=${PROJECT_BINARY_DIR};DYNSPH_RESULTS=${here}/studies;JOBS=1;OMP_NUM_THREADS=1;GOMP_SPINCOUNT=1000;${DYNSPH_BASH};${PROJECT_SOURCE_DIR}/utils/studies/all;quick"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=tables and pictures: ${here}/studies/tables_quick" "-DREJECT=failed;nan"
    "-DCREATED=studies/tables_quick" -P ${run_and_expect})
 set_tests_properties(all_studies_leave_tables PROPERTIES TIMEOUT 900
-   DEPENDS "flows_bear_the_margins;extreme_input_ends_well;error_vs_time_runs;leaving_out_is_told;runs_go_on")
+   DEPENDS "flows_bear_the_margins;extreme_input_ends_well;error_vs_time_runs;leaving_out_is_told;runs_go_on;paper_campaign_goes_on")

@@ -58,9 +58,23 @@ noise() {
       awk '{ print "P1_before", $1; print "P1_after", $3 }' >>"$out/facts/noise"
 }
 
+# Those that docs show.
+shown=' dissipation_by_model resolution_dynamic dynamic_model vorticity_fields vorticity_spectra P1 '
 # draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.
 draw() {
-   gnuplot -e "png='$out/figures/$2'; $3" "utils/plots/$1.gp" && picture "$out/figures/$2"
+   gnuplot -e "png='$out/figures/$2.png'; $3" "utils/plots/$1.gp" 2>"$out/figures/messages" || { cat "$out/figures/messages" >&2; return 1; }
+   if [[ $shown == *" $2 "* ]]; then picture "$out/figures/$2.png"; else echo "picture $out/figures/$2.png"; fi
+}
+# snapshot_at RUN TIME: the first one that is not earlier; nothing if there is none.
+snapshot_at() {
+   sed -n 's/.*"name": "\(.*\)", "time": \([^}]*\)}.*/\1 \2/p' "$out/$1/snapshots.vtkhdf.series" 2>/dev/null |
+      awk -v t="$2" -v dir="$out/$1" '$2 >= t - 1e-9 { print dir "/" $1; exit }'
+}
+# draw_snapshot PICTURE RUN TIME FIELDS
+draw_snapshot() {
+   local snapshot
+   snapshot=$(snapshot_at "$2" "$3")
+   [ -z "$snapshot" ] || draw field "$1" "snapshot='$snapshot'; panels='$4'; converter='$build/bin/dynsph-snapshot-to-text'"
 }
 # Lists for curves.gp: tables of runs that are there, and labels for them, '_' for a blank.
 files='' labels=''
@@ -74,15 +88,15 @@ curves_of() { # LABEL:RUN...
    [ -n "$files" ]
 }
 draw_figures() {
-   local size alpha pairs model runs=''
+   local size alpha pairs model run runs=''
    mkdir -p "$out/figures"
    # The patch.
    size=$(finest patch_alpha_0.01 Q@8)
    pairs=()
    for alpha in 0 0.01 0.02 0.03; do pairs+=("α_=_$alpha:patch_alpha_${alpha}_$size"); done
    if curves_of "${pairs[@]}"; then
-      draw curves patch_dissipation.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Water patch, d/dx = $size'"
-      draw curves patch_density.png "tables='$files'; labels='$labels'; what='density_variation'; heading='Water patch, d/dx = $size: largest of a particle'"
+      draw curves patch_dissipation "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Water patch, d/dx = $size'"
+      draw curves patch_density "tables='$files'; labels='$labels'; what='density_variation'; heading='Water patch, d/dx = $size: largest of a particle'"
    fi
    # Constant coefficients.
    size=$(finest dam_alpha_0.01_ma_0.05 Q@12)
@@ -90,21 +104,34 @@ draw_figures() {
    for alpha in $alphas; do pairs+=("α_=_$alpha:dam_alpha_${alpha}_ma_0.05_$size"); done
    pairs+=("dynamic:dam_dynamic_ma_0.05_$size")
    if curves_of "${pairs[@]}"; then
-      draw curves dissipation_by_model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, d/dx = $size, Ma 0.05'"
+      draw curves dissipation_by_model "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, d/dx = $size, Ma 0.05'"
    fi
    for model in alpha_0.01 dynamic; do
       pairs=()
       for size in $(sizes dam_${model}_ma_0.1 Q@8); do pairs+=("d/dx_=_$size:dam_${model}_ma_0.1_$size"); done
       if curves_of "${pairs[@]}"; then
-         draw curves resolution_$model.png "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, $model, Ma 0.1'"
-         draw curves resolution_log_$model.png "tables='$files'; labels='$labels'; what='Q'; logarithmic=1; heading='Dam break, $model, Ma 0.1'"
+         draw curves resolution_$model "tables='$files'; labels='$labels'; what='Q_alpha Q_delta Q'; heading='Dam break, $model, Ma 0.1'"
+         draw curves resolution_log_$model "tables='$files'; labels='$labels'; what='Q'; logarithmic=1; heading='Dam break, $model, Ma 0.1'"
       fi
    done
    pairs=()
    for size in $(sizes dam_dynamic_ma_0.05 Q@8); do pairs+=("d/dx_=_$size:dam_dynamic_ma_0.05_$size"); done
    if curves_of "${pairs[@]}"; then
-      draw curves coefficients.png "tables='$files'; labels='$labels'; what='alpha_mean alpha_max delta_mean delta_max'; heading='Dynamic model, Ma 0.05'"
+      draw curves coefficients "tables='$files'; labels='$labels'; what='alpha_mean alpha_max delta_mean delta_max'; heading='Dynamic model, Ma 0.05'"
    fi
+   # Energies, and how well they balance; where energy is dissipated; what the dynamic model does.
+   for model in alpha_0.01 dynamic; do
+      size=$(finest dam_${model}_ma_0.05 Q@12)
+      [ -n "$size" ] || continue
+      run=dam_${model}_ma_0.05_$size runs+=" $out/dam_${model}_ma_0.05_$size"
+      gnuplot -e "dir='$out/$run'" utils/plots/energy.gp && mv "$out/$run/energy.png" "$out/figures/energies_$model.png"
+   done
+   [ -z "$runs" ] || draw energy_balance energy_balance "dirs='$runs'"
+   for run in "$out"/dam_alpha_0.01_ma_0.05_*; do
+      if grep -qs "fields = .*dissipation" "$run/input_used.nml"; then draw_snapshot dissipation "$(basename "$run")" 10 dissipation; fi
+   done
+   size=$(finest dam_dynamic_ma_0.1 Q@12)
+   if [ -n "$size" ]; then draw_snapshot dynamic_model "dam_dynamic_ma_0.1_$size" 10 'vorticity delta'; fi
    size=$(noise_size)
    if [ -n "$size" ] && [ -e "$out/dam_dynamic_ma_0.1_$size/P1_spectrum.dat" ]; then draw_noise "$size"; fi
 }
@@ -117,8 +144,8 @@ draw_noise() { # D/DX
       labels+=" ${model/alpha_/α_=_}"
       quoted+=" \"${model/alpha_/α = }\""
    done
-   draw vorticity_spectra vorticity_spectra.png "tables='$spectra'; labels='$labels'"
-   draw vorticity_fields vorticity_fields.png "tables='$fields'; labels='$labels'; top=0.7"
-   draw probe_spectra P1_spectra.png "tables='$probes'; labels='$quoted'; probe='P1'"
-   draw impact P1.png "runs='$(for model in alpha_0.01 dynamic; do echo "$out/dam_${model}_ma_0.1_$1"; done | tr '\n' ' ')'; labels='α_=_0.01 dynamic'"
+   draw vorticity_spectra vorticity_spectra "tables='$spectra'; labels='$labels'"
+   draw vorticity_fields vorticity_fields "tables='$fields'; labels='$labels'; top=0.7"
+   draw probe_spectra P1_spectra "tables='$probes'; labels='$quoted'; probe='P1'"
+   draw impact P1 "runs='$(for model in alpha_0.01 dynamic; do echo "$out/dam_${model}_ma_0.1_$1"; done | tr '\n' ' ')'; labels='α_=_0.01 dynamic'"
 }
