@@ -3,7 +3,7 @@
 # usage: gnuplot -e "tables='A/energy.dat B/energy.dat'; what='Q_alpha Q_delta Q'; png='FILE.png'" utils/plots/curves.gp
 #
 # what: columns; energies as shares of Delta E_M^tot, Q = Q_alpha + Q_delta. labels: one word a table, '_' for a blank. logarithmic=1:
-# so the axes of the quantities. heading: above all. The key is in the last panel.
+# so the axes of the quantities. heading: above all. Q has the key, or the first panel.
 if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
 if (!exists("labels")) labels = tables
@@ -28,13 +28,14 @@ set terminal pngcairo size (columns == 1 ? 1100 : 250 + 550*columns),60 + 520*ro
 set output png
 set multiplot layout rows,columns title (exists("heading") ? heading : '') font 'DejaVu Sans,14'
 set xlabel scaled_time_in(word(tables, 1))
+key_panel = word(what, panels) eq 'Q' ? 'Q' : word(what, 1)
 if (exists("logarithmic")) { set logscale y }
 do for [name in what] {
    set ylabel axis(name)
    if (exists("logarithmic")) { set yrange [1e-4:1]; set key inside right bottom } else { set yrange [0:*]; set key inside left top }
-   if (name eq 'density_variation') { set key inside right top }
+   if (name eq 'density_variation' || name eq 'alpha_mean') { set key inside right top }
    if (name eq 'Q' && !exists("logarithmic")) { set key inside right bottom }
-   if (name ne word(what, panels)) { unset key }
+   if (name ne key_panel) { unset key }
    curves = ''
    do for [i=1:n] {
       what_it_is = quantity(word(tables, i), name)
