@@ -75,5 +75,7 @@ if(NOT gnuplot OR NOT bash)
    return()   # the rest is drawn
 endif()
 must_do("${moved}/bin/dynsph-draw" result)
+must_do("${moved}/bin/dynsph-animate" result)
 must_do(${gnuplot} -e "dir='result'" "${moved}/share/dynsph/plots/field.gp")
-must_be_there("${DIRECTORY}/work/result/energy.png" "${DIRECTORY}/work/result/field_first.png" "${DIRECTORY}/work/result/field.png")
+must_be_there("${DIRECTORY}/work/result/energy.png" "${DIRECTORY}/work/result/field_first.png" "${DIRECTORY}/work/result/field.png"
+   "${DIRECTORY}/work/result/animation.gif")

@@ -1,5 +1,5 @@
 # What files.cmake runs: programs that cannot write. usage: bash files.bash CASE DYNSPH SCENE
-case=$1 dynsph=$2 scene=$3 bin=${2%/*} draw=$(dirname "$0")/../../utils/plots/draw
+case=$1 dynsph=$2 scene=$3 bin=${2%/*} plots=$(dirname "$0")/../../utils/plots
 short=(--quiet --overwrite --output "$case" --set time.max_steps=20)
 loud=("${short[@]:1}")
 rm -rf "$case" "$case.moved"
@@ -31,10 +31,24 @@ limit_picture)
    command -v gnuplot >/dev/null || { echo SKIPPED:; exit; }
    "$dynsph" "${short[@]}" --set output.snapshots=never "$scene" 2>/dev/null
    ulimit -f 8
-   DYNSPH_BIN=$bin bash "$draw" "$case"
+   DYNSPH_BIN=$bin bash "$plots/draw" "$case"
    status=$?
    ! ls "$case"/*.png* 2>/dev/null || status=cut
    exit $status ;;
+limit_animation)   # longer than a table
+   command -v gnuplot >/dev/null || { echo SKIPPED:; exit; }
+   "$dynsph" "${short[@]}" --set "output.snapshots=1 steps" "$scene" 2>/dev/null
+   ulimit -f 160
+   DYNSPH_BIN=$bin bash "$plots/animate" "$case"
+   status=$?
+   ! ls "$case"/*.gif* 2>/dev/null || status=cut
+   exit $status ;;
+no_animation | no_such_field)
+   command -v gnuplot >/dev/null || { echo SKIPPED:; exit; }
+   cadence=never field=velocity
+   [ "$case" = no_animation ] || cadence='10 steps' field="x'; nothing"
+   "$dynsph" "${short[@]}" --set "output.snapshots=$cadence" "$scene" 2>/dev/null
+   DYNSPH_BIN=$bin exec bash "$plots/animate" "$case" "$field" ;;
 few_open_files)
    for ((k = 3; k < 20; k++)); do eval "exec $k>&-"; done   # what this shell was left with
    ulimit -n 5

@@ -27,6 +27,11 @@ told(limit_snapshot 3 "^cannot write 'limit_snapshot/snapshot_000000.vtkhdf' .at
 told(limit_log 3 "cannot write the log 'limit_log/run.log': File too large\n$")
 told(limit_text 3 "^cannot write 'limit_text/table.txt': File too large\n$")
 told(limit_picture 3 "^draw: cannot write '.*/energy.png': File too large\n$")
+told(limit_animation 3 "^animate: cannot write '.*/animation.gif': File too large\n$")
+
+# What has no animation.
+told(no_animation 3 "^animate: fewer than two snapshots in 'no_animation': nothing to animate\n$")
+told(no_such_field 1 "^animate: not all snapshots of 'no_such_field' have 'x'. nothing'. the last has x y ")
 
 # Few open files, links, a directory that goes away.
 told(few_open_files 3 "^cannot write .*'few_open_files/.*: Too many open files\n$")

@@ -46,7 +46,7 @@ refused(unknown_option 1 1 "" "no option --chek. did you mean '--check'" --chek 
 refused(no_scene 1 1 "" "which scene")
 
 # A run that ends before its end_time says so, and its directory has the name that was given.
-add_test(NAME ends_early COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--set;time.max_steps=2;--output; it's blank;${scenes}/still_layers.nml"
+add_test(NAME ends_early COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--set;time.max_steps=2;--set;output.snapshots=1 steps;--output; it's blank;${scenes}/still_layers.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=the run ended at t = 0.01.* of end_time = 4: &time max_steps = 2"
    "-DCREATED= it's blank" "-DNOT_CREATED=it's blank" -P ${run_and_expect})
 add_test(NAME ends_early_in_its_log COMMAND ${CMAKE_COMMAND} "-DCOMMAND=grep;the run ended;${here}/ it's blank/run.log"

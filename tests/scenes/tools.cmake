@@ -86,6 +86,15 @@ add_test(NAME other_fields_are_drawn COMMAND ${CMAKE_COMMAND} -DDRAW=${PROJECT_S
 set_tests_properties(other_fields_are_drawn PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:"
    FIXTURES_REQUIRED dynamic_thread_results TIMEOUT 60)
 
+# All snapshots as an animation.
+function(animates test fixture result)
+   add_test(NAME ${test} COMMAND ${CMAKE_COMMAND} -DANIMATE=${PROJECT_SOURCE_DIR}/utils/plots/animate -DBIN=${PROJECT_BINARY_DIR}/bin
+      "-DRESULT=${here}/${result}" "-DFIELDS=${ARGN}" -P ${scenes}/check_animation.cmake)
+   set_tests_properties(${test} PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:" FIXTURES_REQUIRED ${fixture} TIMEOUT 60)
+endfunction()
+animates(animation_is_made dynamic_thread_results one_thread_dynamic)
+animates(animation_is_made_whatever_the_name early_result " it's blank" pressure velocity_x)
+
 add_test(NAME snapshot_has_its_title COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=$<TARGET_FILE:dynsph-snapshot-to-text>;taylor_green/snapshot_000000.vtkhdf"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DEXPECT=# title: Taylor-Green vortices\n" -P ${run_and_expect})

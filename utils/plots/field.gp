@@ -6,6 +6,8 @@
 #   snapshot='FILE.vtkhdf'    another snapshot                 png='FILE.png'     another picture
 #   panels='velocity pressure'  names of arrays to colour by, vectors by magnitude
 #   x_min=, x_max=, y_max=    the same frame for several pictures
+#   low_NAME=, high_NAME=     the ends of the colours of NAME, in the snapshot's units; of vorticity the larger, both ways
+#   delay=N                   an animated GIF, N/100 s for each picture; each time this script is loaded adds one
 #   table='FILE.txt'          an already converted snapshot    converter='...'    dynsph-snapshot-to-text
 if (!exists("plots")) plots = system("dirname '".ARG0."'")
 load plots.'/style.gp'
@@ -49,7 +51,8 @@ left = 80; right = 150; above = 50; below = 34; foot = 26
 n = words(panels)
 columns = n > 1 && high > 0.5*wide ? 2 : 1
 rows = (n + columns - 1)/columns
-frame_x = columns == 1 ? 1170 : 720
+animated = exists("delay")
+frame_x = animated ? (columns == 1 ? 730 : 400) : columns == 1 ? 1170 : 720
 frame_y = int(frame_x*high/wide)
 if (frame_y > 900) { frame_x = int(900.0*frame_x/frame_y); frame_y = 900 }
 if (frame_x < 400) { frame_x = 400 }
@@ -65,22 +68,28 @@ scale_of(name) = name eq 'velocity' ? sqrt(g*d) : name eq 'pressure' ? rho*g*d :
 heading = head_text(table, 'title')
 if (scaled) { heading = heading.sprintf('     t √(g/d) = %.2f', time*sqrt(g/d)) } else { heading = heading.sprintf('     t = %.4g', time) }
 
-set terminal pngcairo size size_x,size_y font font
-set output png
+if (!animated) { set terminal pngcairo size size_x,size_y font font; set output png }
+if (animated && !exists("begun")) {
+   set terminal gif animate delay delay loop 0 size size_x,size_y font font
+   set output png
+   begun = 1
+}
 set multiplot
-set size ratio -1
 unset key
 unset grid
 set border 15
 set xrange [x_min - margin:x_max + margin]
 set yrange [y_min - margin:y_max + margin]
-set xtics scale 0.4
-if (high < 1) { set ytics 0.2 scale 0.4 } else { set ytics scale 0.4 }
-set ylabel scaled ? 'y / d' : 'y' offset 1,0
 set style fill solid noborder
 
-# Discs of the particle's size; below about two pixels they cost time and show no more than a dot does.
+# Discs of the particle's size; below about two pixels they cost time and show no more than a dot does. A GIF has hard edges: small
+# discs are squares there, and quicker. It knows one palette, not one for each panel; so its colours are given by red, green and blue.
 pixels = frame_x*dx/d/wide
+shades = 120/n   # of the 256 colours of a GIF, half of which gnuplot keeps for others
+shape = animated && pixels <= 3 ? '(0.5*dx/d):(0.5*dx/d):' : pixels > 2 ? '(0.56*dx/d):' : ''
+style = animated && pixels <= 3 ? 'boxxyerror' : pixels > 2 ? 'circles' : pixels > 0.6 ? 'points pointtype 7 pointsize 0.22' : 'dots'
+colour = animated ? '(palette(column(place)/scale)) with '.style.' linecolor rgb variable' \
+   : '(column(place)/scale) with '.style.' linecolor palette'
 do for [i=1:n] {
    name = word(panels, i)
    row = (i - 1)/columns
@@ -105,6 +114,8 @@ do for [i=1:n] {
    high_end = mean + spread < largest ? mean + spread : largest
    # Below a free surface in a field of gravity the colours begin at no pressure, elsewhere suction is of interest.
    if (low < 0.2*high_end && (smallest >= 0 || (name eq 'pressure' && scaled))) { low = 0 }
+   if (exists('low_'.name)) { low = value('low_'.name)/scale }
+   if (exists('high_'.name)) { high_end = value('high_'.name)/scale }
    if (name eq 'vorticity') {
       # White is no rotation, red anticlockwise, blue clockwise.
       high_end = abs(low) > abs(high_end) ? abs(low) : abs(high_end)
@@ -114,24 +125,37 @@ do for [i=1:n] {
    } else {
       eval viridis
    }
+   if (animated) { set palette maxcolors shades }
    # All the same: a range that has a width nevertheless.
    if (high_end <= low) { high_end = low + (low == 0 ? 1 : 0.1*abs(low)) }
    set cbrange [low:high_end]
    set cblabel label(name) offset 0.5,0
    set title heading noenhanced font 'DejaVu Sans,14' offset 0,-0.3
    if (i > 1) { unset title }
+   set size ratio -1
+   set xtics scale 0.4
+   if (high < 1) { set ytics 0.2 scale 0.4 } else { set ytics scale 0.4 }
    bottom_label = i > n - columns ? (scaled ? 'x / d' : 'x') : ''
    set xlabel bottom_label offset 0,0.3
-   if (pixels > 2) {
-      plot table using (column(xc)/d):(column(yc)/d):(0.56*dx/d):(column(place)/scale) with circles linecolor palette
-      continue
+   set ylabel scaled ? 'y / d' : 'y' offset 1,0
+   eval 'plot table using (column(xc)/d):(column(yc)/d):'.shape.colour
+   if (animated) {
+      # The box of colours, as a plot beside the panel.
+      set lmargin at screen 1.0*(start + frame_x + 18)/size_x
+      set rmargin at screen 1.0*(start + frame_x + 34)/size_x
+      unset title; unset xlabel; unset ylabel
+      set format x ''; set format y ''; set xtics scale 0; set ytics scale 0
+      set size noratio
+      set y2tics out scale 0.4 textcolor rgb '#202020'
+      set y2label label(name) offset 0.5,0
+      set y2range [low:high_end]
+      half = 0.5*(high_end - low)/shades
+      set samples shades + 1   # the first is taken for a row of names
+      plot [0:1][low:high_end] '+' using (0.5):(low + (2*$0 + 1)*half):(0.5):(half):(palette(low + (2*$0 + 1)*half)) \
+         with boxxyerror fillcolor rgb variable
+      unset y2tics; unset y2label; set format x; set format y
    }
-   if (pixels > 0.6) {
-      plot table using (column(xc)/d):(column(yc)/d):(column(place)/scale) with points pointtype 7 pointsize 0.22 linecolor palette
-      continue
-   }
-   plot table using (column(xc)/d):(column(yc)/d):(column(place)/scale) with dots linecolor palette
 }
 unset multiplot
-unset output
+if (!animated) { unset output }
 if (strlen(temporary) > 0) { remove = system("rm -f '".temporary."'") }
