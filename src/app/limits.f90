@@ -67,7 +67,7 @@ contains
    !> Says at the end of the run how far the limits were passed, and which sound speeds would have held them.
    !!
    !! Both maxima may be of single particles: one that a collapsing cavity throws out may ask for ten times what the
-   !! flow as a whole needs.
+   !! flow as a whole needs. No sound speed would have held what is not finite.
    subroutine report_limits(extremes, log, c0, n, run)
       type(extremes_t), intent(in) :: extremes
       type(log_t), intent(inout) :: log
@@ -75,13 +75,19 @@ contains
       integer, intent(in) :: n   !! particles
       type(step_t), intent(in) :: run
 
-      if (run%largest_mach > mach_limit) call log%warn(mach_key, 'largest Mach number '//short(run%largest_mach) &
+      if (is_beyond(run%largest_mach, mach_limit)) call log%warn(mach_key, 'largest Mach number '//short(run%largest_mach) &
          //sharers(extremes%fast, n, 'a collapsing cavity makes some very fast')//'; c0 = ' &
          //short(sound_speed_for_mach(c0, run))//' instead of '//short(c0)//' would have held 0.1 at this speed')
-      if (run%largest_variation > variation_limit) call log%warn(density_key, 'largest density variation ' &
+      if (is_beyond(run%largest_variation, variation_limit)) call log%warn(density_key, 'largest density variation ' &
          //short(100*run%largest_variation)//' %'//sharers(extremes%dense, n, 'a collapsing cavity squeezes some') &
          //'; c0 = '//short(sound_speed_for_density(c0, run))//' instead of '//short(c0)//' would have held 1 % at this pressure')
    end subroutine report_limits
+
+   pure logical function is_beyond(value, limit)
+      real(dp), intent(in) :: value, limit
+
+      is_beyond = value > limit .and. value <= huge(value)
+   end function is_beyond
 
    ! Whose a maximum was.
    pure function sharers(number, n, why) result(words)

@@ -386,6 +386,11 @@ contains
       character(:), allocatable :: form
       integer :: decimals
 
+      if (abs(value) > huge(value)) then   ! it has no digits to count
+         words = 'Infinity'
+         if (value < 0) words = '-Infinity'
+         return
+      end if
       decimals = 3
       if (abs(value) > 0) decimals = 3 - floor(log10(abs(value)))
       if (decimals > 7 .or. decimals < -5) then
