@@ -95,6 +95,7 @@ contains
 
       call list%check_choice('--integrator', integrator_names, problem)
       call list%check_choice('--diffusion', [character(11) :: 'frozen', 'every_stage'], problem)
+      scene%model%diffusion = 'constant'
       scene%model%delta = list%real_number('--delta', problem)
       scene%model%alpha = list%real_number('--alpha', problem)
       scene%model%smoothing_ratio = list%real_number('--smoothing-ratio', problem)

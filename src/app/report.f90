@@ -114,7 +114,9 @@ contains
       if (.not. model%dynamic) then
          words = 'constant: alpha = '//short(model%alpha)//', delta = '//short(model%delta)
       else
-         words = 'dynamic: C_S = '//short(scene%model%c_s)//', C_delta = '//short(scene%model%c_delta)//', '
+         words = 'dynamic'
+         if (scene%model%by_default) words = words//' (default)'
+         words = words//': C_S = '//short(scene%model%c_s)//', C_delta = '//short(scene%model%c_delta)//', '
          if (scene%model%limiter == 'strain_rate') words = words//'||D|| clipped so that '
          words = words//'alpha_i, delta_i <= '//short(model%limit)//'; alpha = '//short(model%alpha)
       end if

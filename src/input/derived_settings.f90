@@ -1,4 +1,4 @@
-!> Works out what follows from the keys: boxes around discs, pressure without weight, the sound speed, the viscosity.
+!> Works out what follows from the keys: the model, boxes around discs, pressure without weight, the sound speed, the viscosity.
 module derived_settings
    use draft, only: draft_t
    use kinds, only: dp
@@ -9,11 +9,23 @@ module derived_settings
    implicit none
    private
 
-   public :: resolve_settings, set_reference_speed, start_speed, reach
+   public :: resolve_model, resolve_settings, set_reference_speed, start_speed, reach
 
 contains
 
-   !> Sets all that is worked out. What cannot be is a mistake.
+   !> Sets the model of a scene that names none: the dynamic one, or the constants of which it gives one.
+   !! Which keys have an effect depends on it.
+   pure subroutine resolve_model(draft)
+      type(draft_t), intent(inout) :: draft
+
+      associate (model => draft%scene%model, document => draft%document)
+         model%by_default = .not. document%given('model', 1, 'diffusion')
+         if (.not. model%by_default) return
+         if (document%given('model', 1, 'alpha') .or. document%given('model', 1, 'delta')) model%diffusion = 'constant'
+      end associate
+   end subroutine resolve_model
+
+   !> Sets all else that is worked out. What cannot be is a mistake.
    subroutine resolve_settings(draft)
       type(draft_t), intent(inout) :: draft
 

@@ -12,39 +12,52 @@ module key_reader
    implicit none
    private
 
-   public :: read_values
+   public :: read_values, check_keys
 
 contains
 
-   !> Sets the scene's values. What depends on other keys is looked at when all have been read.
+   !> Sets the scene's values.
    subroutine read_values(draft)
       type(draft_t), intent(inout), target :: draft
-      type(keys_t) :: keys
-      integer :: at, g, i, number, pass
 
       allocate (draft%scene%bodies(draft%document%count_of('body')))
       allocate (draft%scene%probes(draft%document%count_of('probe')))
       allocate (draft%scene%gauges(draft%document%count_of('gauge')))
-      do pass = 1, 2
-         do g = 1, size(groups)
-            number = 0
-            do at = 1, draft%document%n
-               associate (group => draft%document%groups(at))
-                  if (group%name /= groups(g)%name) cycle
-                  number = number + 1
-                  if (number > count_groups(draft%scene, groups(g)%name)) exit
-                  call list_keys(draft%scene, draft%solutions, groups(g)%name, number, keys)
-                  if (pass == 2) call check_group(group, keys, draft%notes)
-                  if (pass == 2) cycle
-                  do i = 1, keys%n
-                     call read_key(group, keys%items(i), draft%notes)
-                  end do
-               end associate
-            end do
+      call visit_groups(draft, checking=.false.)
+   end subroutine read_values
+
+   !> Notes what depends on other keys: groups and keys that there are not, have no effect or are missing. All values must be read.
+   subroutine check_keys(draft)
+      type(draft_t), intent(inout), target :: draft
+
+      call visit_groups(draft, checking=.true.)
+      call check_groups(draft)
+   end subroutine check_keys
+
+   ! Reads or checks the keys of all groups, in the table's order.
+   subroutine visit_groups(draft, checking)
+      type(draft_t), intent(inout), target :: draft
+      logical, intent(in) :: checking
+      type(keys_t) :: keys
+      integer :: at, g, i, number
+
+      do g = 1, size(groups)
+         number = 0
+         do at = 1, draft%document%n
+            associate (group => draft%document%groups(at))
+               if (group%name /= groups(g)%name) cycle
+               number = number + 1
+               if (number > count_groups(draft%scene, groups(g)%name)) exit
+               call list_keys(draft%scene, draft%solutions, groups(g)%name, number, keys)
+               if (checking) call check_group(group, keys, draft%notes)
+               if (checking) cycle
+               do i = 1, keys%n
+                  call read_key(group, keys%items(i), draft%notes)
+               end do
+            end associate
          end do
       end do
-      call check_groups(draft)
-   end subroutine read_values
+   end subroutine visit_groups
 
    ! Unknown groups, groups that are missing or there too often.
    subroutine check_groups(draft)
@@ -110,7 +123,7 @@ contains
             if (group%entries(j)%taken) first = j
          end do
          missing(i) = keys%items(i)%required .and. keys%items(i)%active .and. .not. there
-         if (first == 0 .or. keys%items(i)%active) cycle
+         if (first == 0 .or. keys%items(i)%active .or. group%unsure) cycle
          call notes%warning(group%entries(first)%place, no_effect(keys%items(i)))
          if (idle > 0) cycle
          idle = i

@@ -1,10 +1,10 @@
 !> Reads a scene: its text, its keys, what follows from them, and whether they go together.
 module scene_input
-   use derived_settings, only: resolve_settings
+   use derived_settings, only: resolve_model, resolve_settings
    use draft, only: draft_t
    use errors, only: exit_files, exit_input, failure
    use file_system, only: is_link, path_exists, read_whole_file
-   use key_reader, only: read_values
+   use key_reader, only: check_keys, read_values
    use known_solutions, only: known_solutions_t
    use overrides, only: apply_override
    use scanner, only: scan_namelist
@@ -75,6 +75,8 @@ contains
             call apply_override(overrides(i), draft%document, draft%notes)
          end do
          call read_values(draft)
+         call resolve_model(draft)
+         call check_keys(draft)
          call resolve_settings(draft)
          call check_settings(draft)
          scene = draft%scene

@@ -173,8 +173,9 @@ contains
          associate (model => scene%model)
             call keys%add(key_t('smoothing_ratio', 'Smoothing length over particle spacing, h/dx.', '-', &
                                 range_t(1.2_dp, 4.0_dp), number=model%smoothing_ratio))
-            call keys%add(key_t('diffusion', 'How alpha and delta are chosen: the same everywhere, or from the rate of strain '// &
-                                '(eqs. 19-26).', choices=[character(choice_length) :: 'constant', 'dynamic']), model%diffusion)
+            call keys%add(key_t('diffusion', 'How alpha and delta are chosen: the same everywhere (the default where one is '// &
+                                'given), or from the rate of strain (eqs. 19-26).', &
+                                choices=[character(choice_length) :: 'constant', 'dynamic']), model%diffusion)
             call keys%only_with("diffusion = 'constant'", model%diffusion == 'constant')
             call keys%add(key_t('alpha', 'Coefficient of the viscous term.', '-', not_negative, number=model%alpha))
             call keys%add(key_t('delta', 'Coefficient of the density diffusion.', '-', not_negative, number=model%delta))

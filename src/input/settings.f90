@@ -86,7 +86,8 @@ module settings
    !> &model: the diffusive terms.
    type :: model_settings
       real(dp) :: smoothing_ratio = 2.0_dp   !! h/dx [-]
-      character(choice_length) :: diffusion = 'constant'
+      character(choice_length) :: diffusion = 'dynamic'
+      logical :: by_default = .true.   !! the scene does not say which
       real(dp) :: alpha = 0.01_dp   !! of the viscous term [-]
       real(dp) :: delta = 0.1_dp    !! of the density diffusion [-]
       real(dp) :: c_s = 0.12_dp     !! Smagorinsky's constant C_S of the dynamic model [-]

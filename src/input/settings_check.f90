@@ -125,7 +125,7 @@ contains
       type(draft_t), intent(inout) :: draft
       type(stability_t) :: stability
       real(dp) :: limit, delta
-      character(:), allocatable :: what
+      character(:), allocatable :: what, advice
       logical :: damped   ! sound by diffusive terms alone, so that limits go together
 
       associate (scene => draft%scene, cfl => draft%scene%time%cfl, model => draft%scene%model)
@@ -136,9 +136,11 @@ contains
          delta = constant_delta(scene)
          limit = stability%largest_cfl(delta, merge(scene%alpha_total(), 0.0_dp, damped))
          if (.not. limit > 0.0_dp) then
+            advice = 'use rk4'
+            if (model%diffusion == 'dynamic') advice = "use rk4, or set &model diffusion = 'constant'"
             call draft%mistake('time', 1, 'integrator', '&time integrator = '//quoted(scene%time%integrator) &
                                //' needs a constant alpha or delta that damps sound neither too weakly nor too strongly for ' &
-                               //'cfl = 0.2; with '//short(scene%alpha_total())//' and '//short(delta)//': use rk4')
+                               //'cfl = 0.2; with '//short(scene%alpha_total())//' and '//short(delta)//': '//advice)
          else if (cfl > limit*(1.0_dp + slack)) then
             what = 'the limit of '//trim(scene%time%integrator)//' is '//rounded_down(limit)
             if (damped) then

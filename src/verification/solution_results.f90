@@ -6,7 +6,7 @@ module solution_results
    implicit none
    private
 
-   public :: result_t, history_t, known, share, last, time_mean, log_fit
+   public :: result_t, history_t, known, share, last, time_mean, mean_between, log_fit
 
    !> A line of the summary.
    type :: result_t
@@ -70,6 +70,29 @@ contains
       mean = values(n)
       if (times(n) > times(1)) mean = sum((values(2:) + values(:n - 1))*(times(2:) - times(:n - 1)))/(2*(times(n) - times(1)))
    end function time_mean
+
+   !> Mean over a part of the time, by straight lines between the samples.
+   pure real(dp) function mean_between(times, values, from, to) result(mean)
+      real(dp), intent(in) :: times(:), values(:)
+      real(dp), intent(in) :: from, to   !! from < to; within the samples
+
+      mean = (integral(times, values, to) - integral(times, values, from))/(to - from)
+   end function mean_between
+
+   ! From the first sample to a time.
+   pure real(dp) function integral(times, values, to)
+      real(dp), intent(in) :: times(:), values(:)
+      real(dp), intent(in) :: to
+      real(dp) :: step
+      integer :: i
+
+      integral = 0
+      do i = 1, size(times) - 1
+         step = min(times(i + 1), to) - times(i)
+         if (.not. step > 0) cycle
+         integral = integral + step*(values(i) + (values(i + 1) - values(i))*step/(2*(times(i + 1) - times(i))))
+      end do
+   end function integral
 
    !> A straight line through the logarithms of positive samples.
    subroutine log_fit(times, values, offset, slope, found)

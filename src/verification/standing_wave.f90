@@ -24,7 +24,7 @@ module standing_wave
    use scene_needs, only: need_water_on_floor, needs_t
    use settings, only: choice_length, settings_t, side_names
    use solution, only: n_sums, solution_t
-   use solution_results, only: history_t, result_t, share
+   use solution_results, only: history_t, mean_between, result_t, share, time_mean
    implicit none
    private
 
@@ -32,6 +32,7 @@ module standing_wave
    public :: standing_wave_solution_t, standing_wave_solution
 
    real(dp), parameter :: pi = acos(-1.0_dp)
+   real(dp), parameter :: largest_shift = 0.1_dp   ! of the frequency, to which second order may say something
 
    !> A wave of given geometry.
    type :: standing_wave_t
@@ -47,6 +48,7 @@ module standing_wave
       procedure :: dynamic_pressure
       procedure :: kinetic_energy
       procedure :: amplitude
+      procedure :: frequency_shift
    end type standing_wave_t
 
    !> The wave of a tank: on the floor of the box, from side to side, the surface at the upper edge of the body.
@@ -128,6 +130,19 @@ contains
 
       energy = self%height**2*self%gravity*width*self%depth**2/16*self%amplitude(time)**2
    end function kinetic_energy
+
+   !> Share by which the wave's height shifts its frequency, to second order in ka = eps kH/2. With T = tanh(kH)
+   !!
+   !!     w/sqrt(g k T) - 1 = (ka)**2 (9/T**4 - 12/T**2 - 3 - 2 T**2)/64
+   !!
+   !! Source: Tadjbakhsh & Keller, J. Fluid Mech. 8 (1960) 442-451. In deep water it is -(ka)**2/8 (Rayleigh 1915), 0 at kH = 1.06.
+   elemental real(dp) function frequency_shift(self) result(shift)
+      class(standing_wave_t), intent(in) :: self
+      real(dp) :: t2
+
+      t2 = tanh(self%k*self%depth)**2
+      shift = (self%height*self%k*self%depth/2)**2*(9/t2**2 - 12/t2 - 3 - 2*t2)/64
+   end function frequency_shift
 
    pure type(standing_wave_solution_t) function standing_wave_solution() result(self)
       self%has_amplitude = .true.
@@ -228,23 +243,48 @@ contains
       call row%add('E_K_exact', 'energy/width', self%rho0*self%wave%kinetic_energy(self%extent(1), self%time))
    end subroutine add_columns
 
-   ! Frequency and decay of the oscillation.
+   ! Frequency and decay of the oscillation. Of second order the frequency goes with the energy, here its mean over the run.
    function results(self, history)
       class(standing_wave_solution_t), intent(in) :: self
       type(history_t), intent(in) :: history
       type(result_t), allocatable :: results(:)
       type(oscillation_t) :: fit
       logical :: found
+      real(dp) :: shift
 
       associate (exact => self%wave)
          call fit_oscillation(history%times, history%column('mode'), exact%frequency, fit, found)
+         shift = exact%frequency_shift()*time_mean(history%times, exp(-2*fit%decay*history%times))
          results = [result_t('standing_wave_frequency', fit%frequency, found), &
                     result_t('standing_wave_frequency_error', fit%frequency/exact%frequency - 1, found), &
+                    result_t('standing_wave_frequency_error_2nd_order', fit%frequency/(exact%frequency*(1 + shift)) - 1, &
+                             found .and. abs(shift) < largest_shift), &
                     result_t('standing_wave_decay_rate', fit%decay, found), &
                     share('standing_wave_decay_over_first_order', fit%decay, exact%first_order_decay, found), &
                     share('standing_wave_decay_over_exact', fit%decay, exact%decay, found), &
-                    share('standing_wave_decay_over_lattice', fit%decay, self%lattice%decay, found)]
+                    share('standing_wave_decay_over_lattice', fit%decay, self%lattice%decay, found), &
+                    loss_a_period(history, fit%frequency, found)]
       end associate
    end function results
+
+   ! Share of the energy that is lost in a period, between the first and the last whole one of the run: of the energy E_K has one
+   ! half on average.
+   type(result_t) function loss_a_period(history, frequency, found) result(loss)
+      type(history_t), intent(in) :: history
+      real(dp), intent(in) :: frequency
+      logical, intent(in) :: found   ! the frequency is known
+      real(dp) :: first, last, period
+      integer :: n
+
+      loss = result_t('standing_wave_loss_a_period', 0.0_dp, .false.)
+      if (.not. found) return
+      period = 2*pi/frequency
+      n = int(history%times(size(history%times))/period)
+      if (n < 2) return
+      first = mean_between(history%times, history%column('E_K'), 0.0_dp, period)
+      last = mean_between(history%times, history%column('E_K'), (n - 1)*period, n*period)
+      loss%known = min(first, last) > 0
+      if (loss%known) loss%value = 1 - (last/first)**(1.0_dp/(n - 1))
+   end function loss_a_period
 
 end module standing_wave
