@@ -94,7 +94,7 @@ campaign() {
    dam dynamic 0.05 $middle
    dam strain_rate 0.05 $middle
    for size in $middle $coarse; do
-      for model in dynamic alpha_0.01; do dam $model 0.1 $size; done
+      for model in dynamic alpha_0.01 alpha_0; do dam $model 0.1 $size; done
    done
    for model in $(printf 'alpha_%s ' $alphas) dynamic; do bars "$model" 0.05; done
    for model in alpha_0 alpha_0.01 dynamic; do bars "$model" 0.1; done
