@@ -3,8 +3,9 @@
 # usage: awk -f facts.awk RESULT/summary.txt RESULT/energy.dat     the first only where the run has ended
 #
 # The last time and whether the run has ended; of energy.dat each column at times of interest (COLUMN@T), when 80 and 90 % are
-# dissipated, the largest error of the balance, and how much of the time the density varies by more than 1 %; all of the summary.
-FILENAME ~ /summary.txt$/ { value = $0; sub(/^[^=]*= */, "", value); print $1, value; next }
+# dissipated; where it has ended the largest error of the balance, how much of the time the density varies by more than 1 %, and all of
+# the summary.
+FILENAME ~ /summary.txt$/ { ended = 1; value = $0; sub(/^[^=]*= */, "", value); print $1, value; next }
 /^#/ { next }
 !columns {
    columns = NF
@@ -32,14 +33,13 @@ FILENAME ~ /summary.txt$/ { value = $0; sub(/^[^=]*= */, "", value); print $1, v
    if (error > largest) largest = error
    if ("density_variation" in column) {
       variation = $column["density_variation"]
-      if (variation > most) most = variation
       if (last != "") { span += t - last; if (variation > 0.01) beyond += t - last }
    }
    last = t
 }
 END {
    print "t", last
+   if (!ended) exit   # what is the largest is not known yet
    print "balance", largest
-   print "variation", most
    if (span > 0) print "variation_beyond", beyond/span
 }

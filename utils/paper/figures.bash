@@ -62,13 +62,14 @@ noise() {
 shown=' dissipation_by_model resolution_dynamic dynamic_model vorticity_fields vorticity_spectra P1 '
 # draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.
 draw() {
-   gnuplot -e "png='$out/figures/$2.png'; $3" "utils/plots/$1.gp" 2>"$out/figures/messages" || { cat "$out/figures/messages" >&2; return 1; }
+   gnuplot -e "png='$plain/figures/$2.png'; $3" "utils/plots/$1.gp" 2>"$out/figures/messages" || { cat "$out/figures/messages" >&2; return 1; }
    if [[ $shown == *" $2 "* ]]; then picture "$out/figures/$2.png"; else echo "picture $out/figures/$2.png"; fi
 }
 # snapshot_at RUN TIME: the first one that is not earlier; nothing if there is none.
 snapshot_at() {
-   sed -n 's/.*"name": "\(.*\)", "time": \([^}]*\)}.*/\1 \2/p' "$out/$1/snapshots.vtkhdf.series" 2>/dev/null |
-      awk -v t="$2" -v dir="$out/$1" '$2 >= t - 1e-9 { print dir "/" $1; exit }'
+   [ -e "$plain/$1/snapshots.vtkhdf.series" ] || return 0
+   sed -n 's/.*"name": "\(.*\)", "time": \([^}]*\)}.*/\1 \2/p' "$plain/$1/snapshots.vtkhdf.series" |
+      awk -v t="$2" -v dir="$plain/$1" '$2 >= t - 1e-9 { print dir "/" $1; exit }'
 }
 # draw_snapshot PICTURE RUN TIME FIELDS
 draw_snapshot() {
@@ -83,13 +84,18 @@ curves_of() { # LABEL:RUN...
    files='' labels=''
    for pair in "$@"; do
       [ -s "$out/${pair#*:}/energy.dat" ] || continue
-      files+=" $out/${pair#*:}/energy.dat" labels+=" ${pair%%:*}"
+      files+=" $plain/${pair#*:}/energy.dat" labels+=" ${pair%%:*}"
    done
    [ -n "$files" ]
 }
 draw_figures() {
    local size alpha pairs model run runs=''
    mkdir -p "$out/figures"
+   # Lists of files are parted by blanks: a name that has none.
+   scratch=$(mktemp -d)
+   trap 'rm -rf "$scratch"' EXIT
+   plain=$scratch/runs
+   ln -s "$(cd "$out" && pwd)" "$plain"
    # The patch.
    size=$(finest patch_alpha_0.01 Q@8)
    pairs=()
@@ -123,8 +129,8 @@ draw_figures() {
    for model in alpha_0.01 dynamic; do
       size=$(finest dam_${model}_ma_0.05 Q@12)
       [ -n "$size" ] || continue
-      run=dam_${model}_ma_0.05_$size runs+=" $out/dam_${model}_ma_0.05_$size"
-      gnuplot -e "dir='$out/$run'" utils/plots/energy.gp && mv "$out/$run/energy.png" "$out/figures/energies_$model.png"
+      run=dam_${model}_ma_0.05_$size runs+=" $plain/dam_${model}_ma_0.05_$size"
+      gnuplot -e "dir='$plain/$run'" utils/plots/energy.gp && mv "$out/$run/energy.png" "$out/figures/energies_$model.png"
    done
    [ -z "$runs" ] || draw energy_balance energy_balance "dirs='$runs'"
    for run in "$out"/dam_alpha_0.01_ma_0.05_*; do
@@ -138,7 +144,7 @@ draw_figures() {
 draw_noise() { # D/DX
    local model run stem spectra='' fields='' probes='' labels='' quoted=''
    for model in $noise_models; do
-      run=$out/dam_${model}_ma_0.1_$1
+      run=$plain/dam_${model}_ma_0.1_$1
       stem=$(basename "$(last_snapshot "dam_${model}_ma_0.1_$1")" .vtkhdf)
       spectra+=" $run/vorticity_spectrum_${stem#snapshot_}.dat" fields+=" $run/vorticity_field_${stem#snapshot_}.dat" probes+=" $run/P1_spectrum.dat"
       labels+=" ${model/alpha_/α_=_}"
@@ -147,5 +153,5 @@ draw_noise() { # D/DX
    draw vorticity_spectra vorticity_spectra "tables='$spectra'; labels='$labels'"
    draw vorticity_fields vorticity_fields "tables='$fields'; labels='$labels'; top=0.7"
    draw probe_spectra P1_spectra "tables='$probes'; labels='$quoted'; probe='P1'"
-   draw impact P1 "runs='$(for model in alpha_0.01 dynamic; do echo "$out/dam_${model}_ma_0.1_$1"; done | tr '\n' ' ')'; labels='α_=_0.01 dynamic'"
+   draw impact P1 "runs='$(for model in alpha_0.01 dynamic; do echo "$plain/dam_${model}_ma_0.1_$1"; done | tr '\n' ' ')'; labels='α_=_0.01 dynamic'"
 }

@@ -27,7 +27,8 @@ snapshots() { # MODEL D/DX
 dam() { # MODEL MA D/DX [KEY=VALUE...]
    echo "dam_$1_ma_$2_$3 dam_break scene.resolution=$3 fluid.mach=$2 $(model_settings "$1") $(snapshots "$1" "$3") ${*:4}"
 }
-# What acts is alpha h c0: at another d/dx than the paper's 100 alpha is changed so that this stays. MODEL has the paper's alpha.
+# Viscosity is alpha h c0/8: at another d/dx than the paper's 100 alpha is changed so that this stays; delta is not. MODEL has the
+# paper's alpha.
 patch() { # MODEL D/DX [SCENE NAME]
    local alpha
    alpha=$(awk -v a="${1#alpha_}" -v n="$2" 'BEGIN { print a*n/100 }')
