@@ -2,7 +2,7 @@
 
 # A run that is stopped from outside says how it goes on, has an exit code of its own, and goes on.
 add_test(NAME stops_for_a_file COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_for_a_file.bash;with_stop;${with_one};--set;time.end_time=1000;--set;output.energy=1 steps;${scenes}/still_layers.nml"
+   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_for_a_file.bash;with_stop;${with_one};--output;with_stop;--set;time.end_time=1000;--set;output.energy=1 steps;${scenes}/still_layers.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=4
    "-DEXPECT=the run ended at t = .* of end_time = 1000: file STOP. It goes on with: dynsph --resume with_stop" -P ${run_and_expect})
 set_tests_properties(stops_for_a_file PROPERTIES FIXTURES_SETUP stopped_result TIMEOUT 60)

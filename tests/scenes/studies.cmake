@@ -35,7 +35,7 @@ set_tests_properties(runs_go_on PROPERTIES PROCESSORS 2)
 # The paper's campaign: every claim gets a number, and what was stopped goes on where it was.
 set(paper "${CMAKE_COMMAND};-E;env;DYNSPH_BUILD=${PROJECT_BINARY_DIR};DYNSPH_RESULTS=${here}/studies;JOBS=1;GOMP_SPINCOUNT=1000;${DYNSPH_BASH};${PROJECT_SOURCE_DIR}/utils/paper/reproduce;smoke")
 add_test(NAME paper_campaign_is_stopped COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_campaign.bash;${here}/studies/paper_smoke/dam_dynamic_ma_0.05_24;${paper};dam_dynamic_ma_0.05_24"
+   "-DCOMMAND=${DYNSPH_BASH};${scenes}/stop_for_a_file.bash;${here}/studies/paper_smoke/dam_dynamic_ma_0.05_24;${paper};dam_dynamic_ma_0.05_24"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=4 "-DEXPECT=1 runs have not ended: call it again" -DCREATED=studies/paper_smoke -P ${run_and_expect})
 set_tests_properties(paper_campaign_is_stopped PROPERTIES FIXTURES_SETUP stopped_campaign TIMEOUT 120)
 add_test(NAME paper_campaign_goes_on COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${paper}" -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
