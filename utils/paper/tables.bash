@@ -51,14 +51,8 @@ sizes() { # NAME KEY
    true
 }
 finest() { sizes "$@" | tail -n 1; }
-# calculate EXPRESSION [FORM]: '-' where a number is not there.
-calculate() {
-   case " $1 " in *' - '* | *'(-)'* | *'(- '*) printf -- -; return ;; esac
-   awk -v form="${2:-%.9g}" "BEGIN { printf form, $1 }"
-}
-ratio() { # A B [FORM]
-   if [ "$1" = - ] || [ "$2" = - ]; then printf -- -; else calculate "($1)/($2)" "${3:-%.2f}"; fi
-}
+# ratio A B: '-' where a number is not there.
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { if (a == "-" || b == "-" || b == 0) printf "-"; else printf "%.2f", a/b }'; }
 # Of numbers, (largest - least)/mean.
 spread() {
    printf '%s\n' "$@" | awk '$1 == "-" { next } { if (!n++ || $1 < low) low = $1; if (n == 1 || $1 > high) high = $1; sum += $1 }
