@@ -1,4 +1,5 @@
-# How far the density is from rho0 in a snapshot: the share that 99.9 % of the particles do not exceed, and the rms.
+# How far the density is from rho0 in a snapshot: the share that 99.9 % of the particles do not exceed, the rms, and what part of the
+# particles is beyond 1 %.
 #
 # usage: awk -f density.awk TABLE     TABLE: from dynsph-snapshot-to-text, with pressures
 /^# density:/ { rho0 = $3; next }
@@ -8,11 +9,11 @@
 {
    # The state equation is linear: |rho - rho0|/rho0 = |p|/(rho0 c0^2).
    x = $place/(rho0*c0^2); if (x < 0) x = -x
-   sum += x^2; n++
+   sum += x^2; n++; if (x > 0.01) beyond++
    bin[int(1e5*x)]++; if (int(1e5*x) > top) top = int(1e5*x)
 }
 END {
    left = 0.001*n
    for (k = top; k > 0; k--) { left -= bin[k]; if (left < 0) break }
-   printf "%.5f %.5f\n", (k + 1)/1e5, sqrt(sum/n)
+   printf "%.5f %.5f %.3g\n", (k + 1)/1e5, sqrt(sum/n), beyond/n
 }

@@ -1,38 +1,72 @@
 # Noise (claims L3 and A1) and the figures of the paper's campaign.
 
-# The largest resolution at which the three models that are compared have ended, at Ma 0.1.
 noise_models='alpha_0 alpha_0.01 dynamic'
-noise_size() {
+# Resolutions at which the three models that are compared have ended, at Ma 0.1.
+noise_sizes() {
    local model
-   for model in $noise_models; do sizes dam_${model}_ma_0.1 Q@20; done | sort -n | uniq -c | awk '$1 == 3 { print $2 }' | tail -n 1
+   for model in $noise_models; do sizes dam_${model}_ma_0.1 Q@20; done | sort -n | uniq -c | awk '$1 == 3 { print $2 }'
 }
-last_snapshot() { printf '%s\n' "$out/$1"/snapshot_??????.vtkhdf | tail -n 1; }
-
-# Vorticity at t = 20 in a rectangle that lies inside all fluids; P1, while the flow is violent, and how far models are apart before
-# and after the plunging jet lands. Prints tables; what the claims need becomes facts.
-noise() {
-   local size model run snapshots=() rectangle above
-   : >"$out/facts/noise"
-   size=$(noise_size)
-   [ -n "$size" ] || return 0
-   for model in $noise_models; do snapshots+=("$(last_snapshot "dam_${model}_ma_0.1_$size")"); done
-   rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "${snapshots[@]}" | tr -d , | awk '
+# The largest of them whose runs are here; the largest of which the noise is known.
+noise_size_here() {
+   local size model here
+   for size in $(noise_sizes); do
+      here=yes
+      for model in $noise_models; do [ -s "$out/dam_${model}_ma_0.1_$size/snapshots.vtkhdf.series" ] || here=; done
+      [ -z "$here" ] || echo "$size"
+   done | tail -n 1
+}
+noise_size() {
+   local file
+   for file in "$facts"/noise_*.md; do [ ! -e "$file" ] || basename "$file" .md; done | sed 's/noise_//' | sort -n | tail -n 1
+}
+# The K-th but last snapshot of a run; 0: the last.
+last_snapshot() { printf '%s\n' "$out/$1"/snapshot_??????.vtkhdf | tail -n $((${2:-0} + 1)) | head -n 1; }
+# Rows of `dynsph-spectra vorticity` in the largest rectangle that lies inside the fluid of all snapshots, after the rectangle; nothing
+# if there is none.
+enstrophies() { # SNAPSHOT...
+   local rectangle
+   rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "$@" | tr -d , | awk '
       NR > 1 { for (k = 1; k <= 4; k++) { x = $(k + 7); if (NR == 2 || (k < 3 ? x > r[k] : x < r[k])) r[k] = x } }
       END { if (r[3] > r[1] && r[4] > r[2]) printf "%s,%s,%s,%s", r[1], r[2], r[3], r[4] }')
-   if [ -z "$rectangle" ]; then
-      printf '\n## Noise (L3, A1)\n\nAt d/dx = %s the fluids have no rectangle in common at t = 20.\n' "$size"
-      return
-   fi
-   printf '\n## Noise (L3, A1)\n\nd/dx = %s, Ma 0.1. Vorticity at t = 20 in the rectangle %s:\n\n' "$size" "$rectangle"
-   header model enstrophy 'above pi/(2h)' 'above pi/h' 'kinetic energy' 'above pi/(2h)' 'above pi/h'
-   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "$rectangle" "${snapshots[@]}" |
-      awk -v models="$noise_models" -v facts="$out/facts/noise" -v size="$size" '
-      BEGIN { split(models, model, " ") }
-      NR > 1 { printf "| %s | %s | %.2f %% | %.3f %% | %s | %.3f %% | %.4f %% |\n",
-                  model[NR - 1], $2, 100*$3, 100*$4, $5, 100*$6, 100*$7
-               share[model[NR - 1]] = $3 }
-      END { if (share["alpha_0"] > 0) print "enstrophy_dynamic_over_alpha_0", share["dynamic"]/share["alpha_0"] >facts
-            print "size", size >facts }'
+   [ -n "$rectangle" ] || return 0
+   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "$rectangle" "$@" | sed "1s/.*/$rectangle/"
+}
+
+# Makes facts noise_D/DX and tables noise_D/DX.md: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while the flow is
+# violent, and how far models are apart before and after the plunging jet lands, and from what was measured.
+noise() {
+   local size
+   size=$(noise_size_here)
+   [ -n "$size" ] || return 0
+   noise_at "$size" >"$facts/.noise.md"
+   mv "$facts/.noise" "$facts/noise_$size"
+   mv "$facts/.noise.md" "$facts/noise_$size.md"
+}
+noise_at() { # D/DX
+   local size=$1 model run snapshots back above file=$facts/.noise measured=input/reference/lobovsky2014_p1_H300.csv
+   for back in 4 3 2 1 0; do
+      snapshots=()
+      for model in $noise_models; do snapshots+=("$(last_snapshot "dam_${model}_ma_0.1_$size" $back)"); done
+      enstrophies "${snapshots[@]}" | sed "s/^/$back /"
+   done >"$out/enstrophies"
+   # The table is of the last snapshots, the facts of all.
+   awk -v models="$noise_models" -v size="$size" -v facts="$file" '
+      BEGIN { split(models, model, " "); printf "" >facts }
+      $1 != back { back = $1; k = 0; rectangle = $2; next }
+      { k++; resolved[k] += $3*(1 - $4); noise[k] += $3*$4
+        if (back == 0) row[k] = sprintf("| %s | %s | %.2f %% | %.3f %% | %s | %.3f %% | %.4f %% |", model[k], $3, 100*$4, 100*$5, $6, 100*$7, 100*$8) }
+      END {
+         if (row[1] == "") print "At d/dx = " size " the fluids have no rectangle in common at t = 20."
+         else {
+            printf "d/dx = %s, Ma 0.1. Vorticity at t = 20 in the rectangle %s:\n\n", size, rectangle
+            print "| model | enstrophy | above pi/(2h) | above pi/h | kinetic energy | above pi/(2h) | above pi/h |"
+            print "| --- | --- | --- | --- | --- | --- | --- |"
+            for (k = 1; k <= 3; k++) print row[k]
+         }
+         if (noise[1] > 0) {
+            print "enstrophy_resolved_over_alpha_0", resolved[3]/resolved[1] >facts
+            print "enstrophy_share_over_alpha_0", noise[3]/(resolved[3] + noise[3])*(resolved[1] + noise[1])/noise[1] >facts
+         } }' "$out/enstrophies"
    echo
    header 'model: P1, t = 7 to 20' deviation 'above f sqrt(d/g) = 10' 'above 40' 'largest rise from an octave to the next, from 20 on'
    for model in $noise_models; do
@@ -43,21 +77,23 @@ noise() {
             awk -v above=$above '$1 == "P1" { if (above == 10) printf " %.4f |", $3; printf " %s %% |", $5 }'
       done
       # Mean density of an octave over that of the octave below it: less than 1 as long as the spectrum falls.
-      awk -v fact="rise_$model" -v facts="$out/facts/noise" '/^#/ || !($1 > 10) { next } { band = int(log($1/10)/log(2)); total[band] += $3; n[band]++; if (band > last) last = band }
+      awk -v fact="rise_$model" -v facts="$file" '/^#/ || !($1 > 10) { next } { band = int(log($1/10)/log(2)); total[band] += $3; n[band]++; if (band > last) last = band }
          END { for (band = 1; band < last; band++) { rise = total[band]/n[band]/(total[band - 1]/n[band - 1]); if (rise > worst) worst = rise }
                printf " %.2f |\n", worst; print fact, worst >>facts }' "$run/P1_spectrum.dat"
    done
    echo
    header 'rms difference of P1 to that of the dynamic model over its rms, means over 0.2' '2.6 to 4' '4 to 6.15' '6.15 to 7' '7 to 8' '8 to 20'
    for model in alpha_0 alpha_0.01; do
-      awk -v probe=P1 -v windows="2.6 4 6.15 7 8 20" -v width=0.2 -f utils/studies/probe_difference.awk \
-         "$out/dam_dynamic_ma_0.1_$size/probes.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/ / | /g; s/^/| $model | /; s/\$/ |/"
+      p1_difference "2.6 4 6.15 7 8 20" "$out/dam_dynamic_ma_0.1_$size/probes.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" |
+         sed "s/ / | /g; s/^/| $model | /; s/\$/ |/"
    done
-   awk -v probe=P1 -v windows="2.6 6.15 8 20" -v width=0.2 -f utils/studies/probe_difference.awk \
-      "$out/dam_dynamic_ma_0.1_$size/probes.dat" "$out/dam_alpha_0.01_ma_0.1_$size/probes.dat" |
-      awk '{ print "P1_before", $1; print "P1_after", $3 }' >>"$out/facts/noise"
+   probe_differences "$out/dam_dynamic_ma_0.1_$size" "$out/dam_alpha_0.01_ma_0.1_$size" >>"$file"
+   # The curve in the columns of a probe's table.
+   { echo 'time time_scaled P1'; grep -v '^[#t]' "$measured" | tr , ' ' | sort -n | awk '{ print $1, $1, $2 }'; } >"$out/measured.dat"
+   for model in alpha_0.01 dynamic; do
+      p1_difference "2.6 6.15" "$out/measured.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/^/P1_measured_$model /" >>"$file"
+   done
 }
-
 # Those that docs show.
 shown=' dissipation_by_model resolution_dynamic dynamic_model vorticity_fields vorticity_spectra P1 '
 # draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.
@@ -138,8 +174,8 @@ draw_figures() {
    done
    size=$(finest dam_dynamic_ma_0.1 Q@12)
    if [ -n "$size" ]; then draw_snapshot dynamic_model "dam_dynamic_ma_0.1_$size" 10 'vorticity delta'; fi
-   size=$(noise_size)
-   if [ -n "$size" ] && [ -e "$out/dam_dynamic_ma_0.1_$size/P1_spectrum.dat" ]; then draw_noise "$size"; fi
+   size=$(noise_size_here)
+   if [ -n "$size" ] && [ "$size" = "$(noise_size)" ]; then draw_noise "$size"; fi
 }
 draw_noise() { # D/DX
    local model run stem spectra='' fields='' probes='' labels='' quoted=''

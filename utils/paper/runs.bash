@@ -35,12 +35,13 @@ patch() { # MODEL D/DX [SCENE NAME]
    echo "${4:-patch}_$1_$2 ${3:-water_patch} scene.resolution=$2 model.diffusion=constant model.delta=0.1 model.alpha=$alpha" \
       "'output.snapshots=5 time'"
 }
-# Starts that differ by less than round-off does after some steps; 0 is the unchanged one.
+# Starts that differ by less than round-off does after some steps; 0 is the unchanged one. Pressures are compared at Ma 0.1.
 bars() { # MODEL MA
-   local k
+   local k probes=
+   [ "$2" = 0.1 ] || probes=output.probes=never
    for ((k = 0; k <= starts; k++)); do
       echo "bar_$1_ma_$2_$k dam_break scene.resolution=$question fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
-         output.snapshots=never output.probes=never
+         output.snapshots=never $probes
    done
 }
 # reading | what is read otherwise
@@ -58,12 +59,14 @@ closed_top | domain.top=free_slip
 TABLE
 }
 reading_runs() {
-   local name settings model
+   local name settings model mach
    while IFS='|' read -r name settings; do
       for model in alpha_0.01 dynamic; do
          case $model$name in alpha_*strain_rate* | alpha_*no_viscosity*) continue ;; esac
-         echo "reading_${model}_$name dam_break scene.resolution=$question fluid.mach=0.1 $(model_settings $model) $settings" \
-            output.snapshots=never output.probes=never
+         for mach in 0.1 0.05; do
+            echo "reading_${model}_ma_${mach}_${name% } dam_break scene.resolution=$question fluid.mach=$mach $(model_settings $model) $settings" \
+               output.snapshots=never output.probes=never
+         done
       done
    done < <(readings)
 }

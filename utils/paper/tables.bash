@@ -1,52 +1,70 @@
 # The tables of the paper's campaign, from what its runs have left.
 
-# Facts of each run, made again where the run has gone on. They get their place when they are whole, with the time at which they were
-# begun: what comes after it makes them old.
+# Facts of runs, a file each with lines 'key value'. They go where tables go: so a campaign can be pieced together on several machines,
+# and its tables be made again, long after the runs themselves are gone.
+facts=${DYNSPH_TABLES:+$DYNSPH_TABLES/$(basename "$out")}
+facts=${facts:-$out/facts}
+
+# Makes those of each run that is here and has gone on; one under way does not take the place of one that has ended.
 gather() {
-   local dir name facts
+   local dir name state of version
+   mkdir -p "$facts"
    for dir in "$out"/*/; do
-      dir=${dir%/} name=$(basename "$dir") facts=$out/facts/$(basename "$dir")
+      dir=${dir%/} name=$(basename "$dir")
       [ -s "$dir/energy.dat" ] || continue
-      [ "$facts" -nt "$dir/energy.dat" ] && [ "$facts" -nt "$dir/summary.txt" ] && continue
-      touch "$facts.begun"
+      state='under way'
+      if has_finished "$dir"; then state=finished; elif ended "$dir"; then state=failed; fi
+      of=$(for file in "$dir/energy.dat" "$dir/summary.txt"; do [ ! -e "$file" ] || date -r "$file" '+%F %T.%N'; done | tr '\n' ' ')
+      [ "$(fact "$name" of)" != "${of% }" ] || continue
+      [ "$state" != 'under way' ] || [ "$(fact "$name" state)" != finished ] || continue
       {
-         if has_finished "$dir"; then
+         echo "state $state"
+         echo "of ${of% }"
+         version=$(sed -n 's/^│ dynsph *\(.*[^ ]\) *│$/\1/p' "$dir/run.log" | tail -n 1)
+         echo "version $version"
+         # Version (commit, build type) as `--version` has it.
+         grep -F "$(sed 's/\([^ ]*\) \(.*\) \([^ ]*\)/dynsph \1 (\2, \3)/' <<<"$version")" "$out/made_with" | tail -n 1 | sed 's/^/made_with /'
+         case $state in
+         finished)
             awk -f utils/paper/facts.awk "$dir/summary.txt" "$dir/energy.dat"
-            case $name in patch_*) densities "$dir" ;; esac
-         elif ended "$dir"; then
-            echo 'failed yes'
-            tail -n 1 "$dir/energy.dat" | awk '{ print "t", $2 }'
-         else
-            awk -f utils/paper/facts.awk "$dir/energy.dat"
-         fi
-         sed -n 's/^│ dynsph *\(.*[^ ]\) *│$/version \1/p' "$dir/run.log" | tail -n 1
-      } >"$facts.partial"
-      touch -r "$facts.begun" "$facts.partial"
-      mv "$facts.partial" "$facts"
-      rm "$facts.begun"
+            case $name in
+            patch*) densities "$dir" ;;
+            bar_*_ma_0.1_[1-9]) probe_differences "${dir%_*}_0" "$dir" ;;
+            esac ;;
+         *) awk -f utils/paper/facts.awk "$dir/energy.dat" ;;
+         esac
+      } >"$facts/.partial"
+      mv "$facts/.partial" "$facts/$name"
    done
 }
 has_finished() { grep -qsE '^status = (finished|stopped: max_steps)' "$1/summary.txt"; }
-# Of all snapshots of a run, the largest share that 99.9 % of the particles do not exceed, and the largest rms.
+# Of all snapshots of a run, the largest share that 99.9 % of the particles do not exceed, the largest rms, and how many of the particles
+# are beyond 1 %, at most and on an average.
 densities() { # DIRECTORY
    local snapshot
    for snapshot in "$1"/snapshot_??????.vtkhdf; do
       [ -e "$snapshot" ] || continue
-      "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$out/facts/snapshot.txt" >/dev/null
-      awk -f utils/paper/density.awk "$out/facts/snapshot.txt"
-   done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2 } END { if (NR) printf "variation_999 %s\nvariation_rms %s\n", share, rms }'
-   rm -f "$out/facts/snapshot.txt"
+      "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$out/snapshot.txt" >/dev/null
+      awk -f utils/paper/density.awk "$out/snapshot.txt"
+   done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2; if ($3 > most) most = $3; sum += $3 }
+      END { if (NR) printf "variation_999 %s\nvariation_rms %s\nbeyond_most %s\nbeyond_mean %.3g\n", share, rms, most, sum/NR }'
+   rm -f "$out/snapshot.txt"
 }
+# How far P1 of two runs is apart, before the plunging jet lands and from t = 8 on.
+probe_differences() { # DIRECTORY DIRECTORY
+   [ ! -s "$1/probes.dat" ] || p1_difference '2.6 6.15 8 20' "$1/probes.dat" "$2/probes.dat" | awk '{ print "P1_before", $1; print "P1_after", $3 }'
+}
+p1_difference() { awk -v probe=P1 -v windows="$1" -v width=0.2 -f utils/studies/probe_difference.awk "$2" "$3"; }
 # fact RUN KEY [FORM]: '-' where it is not known, or no number although FORM is that of one.
 fact() {
    awk -v key="$2" -v form="${3:-%s}" '$1 == key && (form == "%s" || $2 + 0 == $2) { sub(/^[^ ]* /, ""); printf form, $0; found = 1; exit } END { if (!found) printf "-" }' \
-      "$out/facts/$1" 2>/dev/null || printf -- -
+      "$facts/$1" 2>/dev/null || printf -- -
 }
 # Resolutions at which there is a run NAME_D/DX that knows KEY, the coarsest first.
 sizes() { # NAME KEY
    local file
-   for file in "$out/facts/$1"_*; do
-      [[ ${file##*_} =~ ^[0-9]+$ ]] && [ "${file%_*}" = "$out/facts/$1" ] && grep -q "^$2 [-0-9]" "$file" && echo "${file##*_}"
+   for file in "$facts/$1"_*; do
+      [[ ${file##*_} =~ ^[0-9]+$ ]] && [ "${file%_*}" = "$facts/$1" ] && grep -q "^$2 [-0-9]" "$file" && echo "${file##*_}"
    done | sort -n
    true
 }
@@ -61,8 +79,14 @@ spread() {
 # How far runs whose starts differ by 1e-12 are apart: standard deviation of a fact.
 deviation() { # MODEL MA KEY
    local file
-   for file in "$out/facts/bar_$1_ma_$2"_[0-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
+   for file in "$facts/bar_$1_ma_$2"_[0-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
       awk '$1 == "-" { next } { n++; sum += $1; square += $1^2 } END { if (n > 2) { v = (square - sum^2/n)/(n - 1); printf "%.3f", sqrt(v > 0 ? v : 0) } else printf "-" }'
+}
+# What starts that differ by 1e-12 have of a fact on an average.
+average() { # MODEL MA KEY
+   local file
+   for file in "$facts/bar_$1_ma_$2"_[1-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
+      awk '$1 == "-" { next } { n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'
 }
 # verdict KIND PAPER OURS: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %.
 verdict() {
@@ -97,6 +121,7 @@ quotients() { # CLAIM STATEMENT PAPER NAME KEY KEY
       last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$4_$size" "$6")")
       text+=", $last ($size)"
    done
+   text=${text:-, -}
    reckoned "$1" "$2" about "$3" "${text#, }" "$last" "$4"
 }
 
@@ -159,19 +184,26 @@ claims() {
       against L2 "Q_delta(20) over that with alpha = 0.005$text" dam_alpha_0.005_ma_0.05 $run Q_delta/dE@20 alpha_0.005
    done
    simple L3 'Q_omega(20), Ma 0.1' below 0.01 dam_dynamic_ma_0.1 Q_omega/dE@20 %.1e
-   judged L3 'share of enstrophy above pi/(2h) at t = 20, Ma 0.1, over that with alpha = 0' below 1 enstrophy_dynamic_over_alpha_0
-   judged A1 'P1 of both models coincides to t = 6.15 (we say: to 2 %): rms of the difference, from 2.6 on' below 0.02 P1_before
-   judged A1 'and is shifted in time after it: the same from 8 on' - - P1_after
+   judged L3 'share of enstrophy above pi/(2h), Ma 0.1, t = 16 to 20, over that with alpha = 0' below 1 enstrophy_share_over_alpha_0
+   judged L3 'vorticity resembles that with alpha = 0: enstrophy below pi/(2h) over the one there' about 1 enstrophy_resolved_over_alpha_0
+   judged A1 'P1 of both models coincides to t = 6.15 (we say: to 2 %): rms of the difference, from 2.6 on' below 0.02 P1_before "$(starts P1_before)"
+   judged A1 'and is shifted in time after it: the same from 8 on' - - P1_after "$(starts P1_after)"
+   for model in dynamic alpha_0.01; do
+      judged A1 "near the experiment: rms of the difference to Lobovsky et al. over their rms, 2.6 to 6.15, ${model/_/ }" - - P1_measured_$model
+   done
    judged A1 'no spurious high frequencies: rise of the spectrum from an octave to the next, dynamic' below 1 rise_dynamic
    judged A1 'the same, alpha = 0.01' below 1 rise_alpha_0.01
    all_sizes L4 'Q(20) nearly the same at each d/dx from 100 on: spread' dam_dynamic_ma_0.1 dynamic
 }
 # What `noise` found. KIND -: a number that there is no verdict on.
-judged() { # CLAIM STATEMENT KIND PAPER KEY
-   local value
-   value=$(fact noise "$5" %.3g)
-   row "$1" "$2" "${3/below/<} $4" "$value ($(fact noise size))" "$([ "$3" = - ] && echo '-' || verdict "$3" "$4" "$value")" '`dam_*_ma_0.1`'
+judged() { # CLAIM STATEMENT KIND PAPER KEY [NOTE]
+   local size value sign=$3
+   size=$(noise_size)
+   value=$(fact "noise_$size" "$5" %.3g)
+   sign=${sign/below/<} sign=${sign/about/\~}
+   row "$1" "$2" "$sign $4" "$value ($size)${6:+; $6}" "$([ "$3" = - ] && echo '-' || verdict "$3" "$4" "$value")" '`dam_*_ma_0.1`'
 }
+starts() { echo "starts of one model: $(average dynamic 0.1 "$1"), $(average alpha_0.01 0.1 "$1") ($question)"; }
 # How much Q(20) changes with the resolution.
 all_sizes() { # CLAIM STATEMENT NAME MODEL
    local size values=()
@@ -190,7 +222,7 @@ against() { # CLAIM STATEMENT OTHER NAME KEY MODEL
       last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$3_$size" "$5")")
       text+=", $last = $(fact "$4_$size" "$5" %.3f)/$(fact "$3_$size" "$5" %.3f) ($size)"
    done
-   text+=", +- $(deviation dynamic 0.05 "$5") and $(deviation "$6" 0.05 "$5")"
+   text=${text:-, -}", +- $(deviation dynamic 0.05 "$5") and $(deviation "$6" 0.05 "$5")"
    reckoned "$1" "$2" about 1 "${text#, }" "$last" "$4, $3"
 }
 
@@ -200,61 +232,107 @@ error_bars() {
    header 'model, Ma' runs 'Q_alpha(12)' 'Q_delta(12)' 'Q(12)' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)'
    for mach in 0.05 0.1; do
       for model in $(printf 'alpha_%s ' $alphas) dynamic; do
-         [ -e "$out/facts/bar_${model}_ma_${mach}_0" ] || continue
+         [ -e "$facts/bar_${model}_ma_${mach}_0" ] || continue
          cells=()
          for key in Q_alpha/dE@12 Q_delta/dE@12 Q@12 Q_alpha/dE@20 Q_delta/dE@20 Q@15.5 Q@20; do
             cells+=("$(fact "bar_${model}_ma_${mach}_0" $key %.3f) +- $(deviation "$model" "$mach" $key)")
          done
-         row "$model, $mach" "$(grep -ls '^Q@20 ' "$out/facts/bar_${model}_ma_${mach}"_[0-9] | wc -l)" "${cells[@]}"
+         row "$model, $mach" "$(grep -ls '^Q@20 ' "$facts/bar_${model}_ma_${mach}"_[0-9] | wc -l)" "${cells[@]}"
       done
    done
 }
+# Differences between runs that the paper speaks of: larger than what two runs differ by anyhow, when they are more than twice the
+# standard deviation of a difference.
+differences() {
+   local size
+   echo "Those that the paper sees or does not see, at the finest d/dx at which both runs are there; '+-' is that of a difference of two"
+   printf 'such runs at d/dx = %s. Real: more than twice that.\n\n' "$question"
+   header claim 'difference (d/dx)' ours '+-' real
+   # Constant coefficients against each other, at Ma 0.05.
+   difference D3 'Q(20), alpha = 0.03 and 0' Q@20 0.05 alpha_0.03 alpha_0
+   difference D3 'Q(20), alpha = 0.02 and 0.005' Q@20 0.05 alpha_0.02 alpha_0.005
+   difference D3 'Q_alpha(20), alpha = 0.03 and 0.005' Q_alpha/dE@20 0.05 alpha_0.03 alpha_0.005
+   difference D3 'Q_delta(20), alpha = 0.03 and 0.005' Q_delta/dE@20 0.05 alpha_0.03 alpha_0.005
+   difference L2 'Q(12), dynamic and alpha = 0' Q@12 0.05 dynamic alpha_0
+   difference L2 'Q(12), alpha = 0.01 and 0' Q@12 0.05 alpha_0.01 alpha_0
+   difference L2 'Q_alpha(20), dynamic and alpha = 0.005' Q_alpha/dE@20 0.05 dynamic alpha_0.005
+   difference L2 'Q_delta(20), dynamic and alpha = 0.005' Q_delta/dE@20 0.05 dynamic alpha_0.005
+   difference L2 'Q(20), dynamic and alpha = 0.005' Q@20 0.05 dynamic alpha_0.005
+   difference L2 'Q(20), dynamic and alpha = 0.01' Q@20 0.05 dynamic alpha_0.01
+   difference D4 'Q(20), dynamic and alpha = 0.01, Ma 0.1' Q@20 0.1 dynamic alpha_0.01
+   between_sizes D4 alpha_0.01
+   between_sizes L4 dynamic
+}
+difference() { # CLAIM WORDS KEY MA MODEL MODEL
+   local size
+   size=$({ sizes "dam_$5_ma_$4" "$3"; sizes "dam_$6_ma_$4" "$3"; } | sort -n | uniq -d | tail -n 1)
+   [ -z "$size" ] || compared "$1" "$2 ($size)" "$(fact "dam_$5_ma_$4_$size" "$3")" "$(fact "dam_$6_ma_$4_$size" "$3")" \
+      "$(deviation "$5" "$4" "$3")" "$(deviation "$6" "$4" "$3")"
+}
+# Each resolution against the next finer one.
+between_sizes() { # CLAIM MODEL
+   local size coarser=''
+   for size in $(sizes "dam_$2_ma_0.1" Q@20); do
+      [ -z "$coarser" ] || compared "$1" "Q(20), ${2/_/ }, Ma 0.1, d/dx = $coarser and $size" "$(fact "dam_$2_ma_0.1_$coarser" Q@20)" \
+         "$(fact "dam_$2_ma_0.1_$size" Q@20)" "$(deviation "$2" 0.1 Q@20)" "$(deviation "$2" 0.1 Q@20)"
+      coarser=$size
+   done
+}
+compared() { # CLAIM WORDS A B DEVIATION DEVIATION
+   local cells
+   cells=$(awk -v a="$3" -v b="$4" -v s="$5" -v r="$6" 'BEGIN { d = a - b
+      if (s == "-" || r == "-") printf "%+.3f|-|-", d
+      else { both = sqrt(s^2 + r^2); printf "%+.3f|%.3f|%s", d, both, (d > 2*both || -d > 2*both) ? "yes" : "no" } }')
+   row "$1" "$2" "${cells%%|*}" "$(cut -d'|' -f2 <<<"$cells")" "${cells##*|}"
+}
 # --- What other readings of the paper do.
 ablation() {
-   local model name base
-   header reading model 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
-   for model in alpha_0.01 dynamic; do
-      base=bar_${model}_ma_0.1_0
-      [ ! -e "$out/facts/$base" ] || reading 'as it is here' $model $base
-      while IFS='|' read -r name _; do
-         name=${name% }
-         [ ! -e "$out/facts/reading_${model}_$name" ] || reading "$name" $model "reading_${model}_$name"
-      done < <(readings)
+   local model mach name
+   header reading 'model, Ma' 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
+   for model in alpha_0.01_ma_0.1 alpha_0.01_ma_0.05 dynamic_ma_0.1 dynamic_ma_0.05; do
+      reading 'as it is here' $model "bar_${model}_0"
+      while IFS='|' read -r name _; do reading "$name" $model "reading_${model}_${name% }"; done < <(readings)
    done
 }
 reading() { # WORDS MODEL RUN
-   row "${1//_/ }" "${2//_/ }" "$(fact "$3" time_kinetic_maximum %.2f)" "$(fact "$3" time_potential_maximum %.2f)" "$(fact "$3" time_kinetic_maximum_2 %.2f)" \
+   local model=${2/_ma_/, }
+   [ -e "$facts/$3" ] || return 0
+   row "${1//_/ }" "${model//_/ }" "$(fact "$3" time_kinetic_maximum %.2f)" "$(fact "$3" time_potential_maximum %.2f)" "$(fact "$3" time_kinetic_maximum_2 %.2f)" \
       "$(fact "$3" Q_alpha/dE@20 %.3f)" "$(fact "$3" Q_delta/dE@20 %.3f)" "$(fact "$3" Q@15.5 %.3f)" "$(fact "$3" Q@20 %.3f)" "$(fact "$3" balance %.1e)" \
       "$(fact "$3" alpha_mean@12 %.4f)" "$(fact "$3" alpha_max@12 %.4f)" "$(fact "$3" delta_mean@12 %.3f)"
 }
 # --- All runs.
 all_runs() {
-   local name
+   local name state
    header run particles steps 'reached t' 'ns a particle-step' Q_alpha Q_delta Q 'balance error' version
-   ls "$out/facts" | awk '/^(dam|patch|patchwide)_/ && !/[.](begun|partial)$/' | sort -V | while read -r name; do
-      row "\`$name\`" "$(fact "$name" particles)" "$(fact "$name" steps)" \
-         "$(fact "$name" t %.4g)$(if [ "$(fact "$name" failed)" = yes ]; then echo ' (failed)'; elif ! ended "$out/$name"; then echo ' (under way)'; fi)" "$(fact "$name" ns_per_particle_step_per_core %.0f)" \
-         "$(fact "$name" Q_alpha %.3f)" "$(fact "$name" Q_delta %.3f)" "$(fact "$name" Q_total %.3f)" "$(fact "$name" balance %.1e)" "$(fact "$name" version)"
+   ls "$facts" | awk '/^(dam|patch|patchwide)_/' | sort -V | while read -r name; do
+      state=$(fact "$name" state)
+      row "\`$name\`" "$(fact "$name" particles)" "$(fact "$name" steps)" "$(fact "$name" t %.4g)$([ "$state" = finished ] || echo " ($state)")" \
+         "$(fact "$name" ns_per_particle_step_per_core %.0f)" "$(fact "$name" Q_alpha %.3f)" "$(fact "$name" Q_delta %.3f)" "$(fact "$name" Q_total %.3f)" "$(fact "$name" balance %.1e)" "$(fact "$name" version)"
    done
 }
 
 write_tables() {
    gather
-   noise >"$out/noise.md"
+   noise
    {
       echo 'Times are t sqrt(g/d), energies shares of Delta E_M^tot. Holds: the number as the paper has it, or within 10 % of one that it gives as'
       echo "approximate; roughly: within 30 %; judged at the finest d/dx. '+-': standard deviation of runs whose starts differ by 1e-12, d/dx = $question."
       echo
       claims
-      cat "$out/noise.md"
+      printf '\n## Noise (L3, A1)\n\n'
+      cat "$facts/noise_$(noise_size).md" 2>/dev/null || echo 'Alpha = 0, alpha = 0.01 and the dynamic model at Ma 0.1 are not there at one d/dx.'
       printf '\n## What single runs vary by\n\nRuns whose starts differ by 1e-12 (`body(1).velocity`), d/dx = %s: value and standard deviation.\n\n' "$question"
       error_bars
-      printf '\n## Other readings of the paper\n\nd/dx = %s, Ma 0.1, one thing changed at a time.\n\n' "$question"
+      printf '\n## Differences and what single runs vary by\n\n'
+      differences
+      printf '\n## Other readings of the paper\n\nd/dx = %s, one thing changed at a time.\n\n' "$question"
       ablation
       printf '\n## All runs\n\n'
       all_runs
       echo
       echo "\`utils/paper/reproduce TIER RUN\` makes one of them; RUN/input_used.nml in $(basename "$out") is its input."
    } >"$out/table.md"
-   publish paper "The paper's claims" "$out/table.md"
+   cat "$facts"/* | sed -n 's/^made_with //p' | LC_ALL=C sort -u >"$out/facts_made_with"
+   publish paper "The paper's claims" "$out/table.md" "$out/facts_made_with"
 }

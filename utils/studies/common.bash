@@ -45,11 +45,11 @@ stamp() {
    line=$(made_with)
    grep -sqxF "$line" "$out/made_with" || echo "$line" >>"$out/made_with"
 }
-# publish NAME HEADING FILE: the tables in FILE under their head as $out/NAME.md.
+# publish NAME HEADING FILE [MADE_WITH]: the tables in FILE under their head as $out/NAME.md.
 publish() {
    {
       printf '# %s\n\nWritten by `%s` with\n\n' "$2" "$command"
-      sed 's/^/- /' "$out/made_with"
+      sed 's/^/- /' "${4:-$out/made_with}"
       echo
       sed '1{/^$/d}' "$3"
    } >"$out/$1.md"
