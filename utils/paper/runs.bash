@@ -3,11 +3,12 @@
 # Names: dam_MODEL_ma_MA_D/DX and patch_MODEL_D/DX; bar_... are the same with starts that differ by 1e-12, reading_... with other
 # readings of what the paper leaves unsaid. MODEL: alpha_VALUE (delta = 0.1), dynamic (Re = 1e6), strain_rate (its ||D|| clipped).
 
-# Resolutions of a tier: three of dam breaks, those of the patch and of single questions.
+# Resolutions of a tier: three of dam breaks, that of the patch, and of single questions for both; how many starts, and which alphas
+# questions of the patch are asked for.
 case $tier in
-smoke) coarse=12 middle=16 fine=24 patch=6 question=12 starts=1 ;;
-quick) coarse=20 middle=30 fine=40 patch=16 question=20 starts=3 ;;
-*) coarse=50 middle=100 fine=200 patch=50 question=50 starts=4 ;;
+smoke) coarse=12 middle=16 fine=24 patch=6 question=12 patch_question=5 starts=1 patch_alphas='0 0.01' ;;
+quick) coarse=30 middle=40 fine=50 patch=20 question=25 patch_question=10 starts=3 patch_alphas='0 0.01 0.03' ;;
+*) coarse=50 middle=100 fine=200 patch=50 question=50 patch_question=25 starts=4 patch_alphas='0 0.01 0.03' ;;
 esac
 
 model_settings() {
@@ -29,11 +30,11 @@ dam() { # MODEL MA D/DX [KEY=VALUE...]
 }
 # Viscosity is alpha h c0/8: at another d/dx than the paper's 100 alpha is changed so that this stays; delta is not. MODEL has the
 # paper's alpha.
-patch() { # MODEL D/DX [SCENE NAME]
+patch() { # MODEL D/DX [SCENE NAME KEY=VALUE...]
    local alpha
    alpha=$(awk -v a="${1#alpha_}" -v n="$2" 'BEGIN { print a*n/100 }')
    echo "${4:-patch}_$1_$2 ${3:-water_patch} scene.resolution=$2 model.diffusion=constant model.delta=0.1 model.alpha=$alpha" \
-      "'output.snapshots=5 time'"
+      "'output.snapshots=5 time' ${*:5}"
 }
 # Starts that differ by less than round-off does after some steps; 0 is the unchanged one. Pressures are compared at Ma 0.1.
 bars() { # MODEL MA
@@ -70,6 +71,26 @@ reading_runs() {
       done
    done < <(readings)
 }
+# reading | scene | what is read otherwise
+patch_readings() {
+   cat <<'TABLE'
+as_it_is | water_patch |
+wide | water_patch_wide |
+hydrostatic_patch | water_patch | body(2).pressure=hydrostatic
+resting_patch | water_patch | body(2).velocity=0,0
+mirror_images | water_patch | domain.images=mirror
+cfl_0.75 | water_patch | time.cfl=0.75
+every_stage | water_patch | time.diffusion=every_stage
+h_1.5 | water_patch | model.smoothing_ratio=1.5
+closed_top | water_patch | domain.top=free_slip
+TABLE
+}
+patch_reading_runs() {
+   local name scene settings alpha
+   while IFS='|' read -r name scene settings; do
+      for alpha in $patch_alphas; do patch alpha_$alpha $patch_question $scene patchreading_${name% } $settings; done
+   done < <(patch_readings)
+}
 
 alphas='0 0.005 0.01 0.02 0.03'
 campaign() {
@@ -103,4 +124,5 @@ campaign() {
    for model in $(printf 'alpha_%s ' $alphas) dynamic; do bars "$model" 0.05; done
    for model in alpha_0 alpha_0.01 dynamic; do bars "$model" 0.1; done
    reading_runs
+   patch_reading_runs
 }

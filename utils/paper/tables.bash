@@ -301,6 +301,21 @@ reading() { # WORDS MODEL RUN
       "$(fact "$3" Q_alpha/dE@20 %.3f)" "$(fact "$3" Q_delta/dE@20 %.3f)" "$(fact "$3" Q@15.5 %.3f)" "$(fact "$3" Q@20 %.3f)" "$(fact "$3" balance %.1e)" \
       "$(fact "$3" alpha_mean@12 %.4f)" "$(fact "$3" alpha_max@12 %.4f)" "$(fact "$3" delta_mean@12 %.3f)"
 }
+# The same for the patch: what W1 to W3 are about.
+patch_ablation() {
+   local name run alpha cells=()
+   for alpha in $patch_alphas; do cells+=("Q(140), alpha = $alpha"); done
+   header reading "${cells[@]}" 'Q_alpha/Q_delta, alpha = 0.01' 'largest density variation' 'of 99.9 %' 'beyond 1 %, share of the time' 'balance error'
+   while IFS='|' read -r name _; do
+      name=patchreading_${name% } run=${name}_alpha_0.01_$patch_question
+      [ -e "$facts/$run" ] || continue
+      cells=()
+      for alpha in $patch_alphas; do cells+=("$(fact "${name}_alpha_${alpha}_$patch_question" Q@140 %.3f)"); done
+      name=${name#*_}
+      row "${name//_/ }" "${cells[@]}" "$(ratio "$(fact "$run" Q_alpha/dE@140)" "$(fact "$run" Q_delta/dE@140)")" "$(fact "$run" max_density_variation %.4f)" \
+         "$(fact "$run" variation_999 %.4f)" "$(fact "$run" variation_beyond %.4f)" "$(fact "$run" balance %.1e)"
+   done < <(patch_readings)
+}
 # --- All runs.
 all_runs() {
    local name state
@@ -328,6 +343,8 @@ write_tables() {
       differences
       printf '\n## Other readings of the paper\n\nd/dx = %s, one thing changed at a time.\n\n' "$question"
       ablation
+      printf '\nWater patch, d/dx = %s, alpha h c0 as with alpha at d/dx = 100:\n\n' "$patch_question"
+      patch_ablation
       printf '\n## All runs\n\n'
       all_runs
       echo
