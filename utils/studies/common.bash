@@ -4,7 +4,8 @@
 # DYNSPH_BUILD     the build, instead of build
 # DYNSPH_RESULTS   where runs go, instead of results
 # DYNSPH_TABLES    where `publish` and `picture` leave copies; utils/studies/all: docs/results
-# JOBS             runs side by side, one thread each, instead of 2
+# JOBS             runs side by side, instead of 2
+# THREADS          threads of each of these runs, instead of 1: for a few large ones on many cores
 set -euo pipefail
 unset GNUTERM   # a terminal of the user's that pictures have no use for
 study=$(basename "$0")
@@ -12,7 +13,7 @@ script=$(cd "$(dirname "$0")" && pwd)/$study
 called=utils/$(basename "$(dirname "$script")")/$study
 command="$called${*:+ $*}"
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-build=${DYNSPH_BUILD:-build} results=${DYNSPH_RESULTS:-results} jobs=${JOBS:-2}
+build=${DYNSPH_BUILD:-build} results=${DYNSPH_RESULTS:-results} jobs=${JOBS:-2} threads=${THREADS:-1}
 
 # The comment at the head of the study, for who calls it with a word that it does not know.
 usage() { awk 'NR > 1 { if (!/^#/) exit; sub(/^# ?/, ""); print }' "$script" >&2; exit 1; }
@@ -65,7 +66,7 @@ has_gnuplot() { command -v gnuplot >/dev/null; }
 # --- Runs and their numbers.
 # Whether a run has come to its end, good or bad; one that was stopped has not.
 ended() { [ -e "$1/summary.txt" ] && ! grep -qE '^status = stopped: (SIG|file|max_wall)' "$1/summary.txt"; }
-# run DIRECTORY SCENE KEY=VALUE...: a scene of input/, with one thread, unless it has ended; one that was broken off goes on.
+# run DIRECTORY SCENE KEY=VALUE...: a scene of input/, unless it has ended; one that was broken off goes on.
 # Messages are beside the directory.
 run() {
    local dir=$1 scene=$2 arguments=() setting
@@ -76,7 +77,7 @@ run() {
    [ ! -e "$dir/input_used.nml" ] || arguments=(--resume "$dir")
    mkdir -p "$(dirname "$dir")"
    stamp
-   OMP_NUM_THREADS=1 "$build/bin/dynsph" --quiet "${arguments[@]}" >"$dir.messages" 2>&1 </dev/null || echo "$dir: see $dir.messages" >&2
+   OMP_NUM_THREADS=$threads "$build/bin/dynsph" --quiet "${arguments[@]}" >"$dir.messages" 2>&1 </dev/null || echo "$dir: see $dir.messages" >&2
 }
 # side_by_side FUNCTION: calls it for each line that comes in, with its words.
 side_by_side() { xargs -P "$jobs" -L 1 bash -c "$1 \"\$@\"" _; }
@@ -90,4 +91,4 @@ value() {
 row() { printf '|'; printf ' %s |' "$@"; echo; }
 header() { row "$@"; row "${@/*/---}"; }
 export -f made_with stamp ended run value
-export out build
+export out build threads
