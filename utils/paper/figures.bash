@@ -11,7 +11,10 @@ noise_size_here() {
    local size model here
    for size in $(noise_sizes); do
       here=yes
-      for model in $noise_models; do [ -s "$out/dam_${model}_ma_0.1_$size/snapshots.vtkhdf.series" ] || here=; done
+      for model in $noise_models; do
+         has_finished "$out/dam_${model}_ma_0.1_$size" && [ -s "$out/dam_${model}_ma_0.1_$size/probes.dat" ] &&
+            [ -n "$(last_snapshot "dam_${model}_ma_0.1_$size" 4)" ] || here=
+      done
       [ -z "$here" ] || echo "$size"
    done | tail -n 1
 }
@@ -19,17 +22,20 @@ noise_size() {
    local file
    for file in "$facts"/noise_*.md; do [ ! -e "$file" ] || basename "$file" .md; done | sed 's/noise_//' | sort -n | tail -n 1
 }
-# The K-th but last snapshot of a run; 0: the last.
-last_snapshot() { printf '%s\n' "$out/$1"/snapshot_??????.vtkhdf | tail -n $((${2:-0} + 1)) | head -n 1; }
-# Rows of `dynsph-spectra vorticity` in the largest rectangle that lies inside the fluid of all snapshots, after the rectangle; nothing
-# if there is none.
+# The K-th but last snapshot of a run; 0: the last; nothing if there are not so many.
+last_snapshot() {
+   local snapshots=("$out/$1"/snapshot_??????.vtkhdf) k=${2:-0}
+   if [ -e "${snapshots[0]}" ] && [ ${#snapshots[@]} -gt "$k" ]; then echo "${snapshots[-1 - k]}"; fi
+}
+# Rows of `dynsph-spectra vorticity` in the largest rectangle that lies inside the fluid of all snapshots, after the rectangle and its
+# lesser side; nothing if there is none.
 enstrophies() { # SNAPSHOT...
    local rectangle
    rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "$@" | tr -d , | awk '
       NR > 1 { for (k = 1; k <= 4; k++) { x = $(k + 7); if (NR == 2 || (k < 3 ? x > r[k] : x < r[k])) r[k] = x } }
-      END { if (r[3] > r[1] && r[4] > r[2]) printf "%s,%s,%s,%s", r[1], r[2], r[3], r[4] }')
+      END { a = r[3] - r[1]; b = r[4] - r[2]; if (a > 0 && b > 0) printf "%s,%s,%s,%s %s", r[1], r[2], r[3], r[4], a < b ? a : b }')
    [ -n "$rectangle" ] || return 0
-   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "$rectangle" "$@" | sed "1s/.*/$rectangle/"
+   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
 }
 
 # Makes facts noise_D/DX and tables noise_D/DX.md: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while the flow is
@@ -38,22 +44,22 @@ noise() {
    local size
    size=$(noise_size_here)
    [ -n "$size" ] || return 0
-   noise_at "$size" >"$facts/.noise.md"
-   mv "$facts/.noise" "$facts/noise_$size"
-   mv "$facts/.noise.md" "$facts/noise_$size.md"
+   noise_at "$size" >"$scratch/noise.md"
+   put "$scratch/noise" "$facts/noise_$size"
+   put "$scratch/noise.md" "$facts/noise_$size.md"
 }
 noise_at() { # D/DX
-   local size=$1 model run snapshots back above file=$facts/.noise measured=input/reference/lobovsky2014_p1_H300.csv
+   local size=$1 model run snapshots back above file=$scratch/noise measured=input/reference/lobovsky2014_p1_H300.csv
    for back in 4 3 2 1 0; do
       snapshots=()
       for model in $noise_models; do snapshots+=("$(last_snapshot "dam_${model}_ma_0.1_$size" $back)"); done
       enstrophies "${snapshots[@]}" | sed "s/^/$back /"
-   done >"$out/enstrophies"
-   # The table is of the last snapshots, the facts of all.
+   done >"$scratch/enstrophies"
+   # The table is of the last snapshots; the facts are of those whose rectangle has room for two waves of the number pi/(2h), h = 2 dx.
    awk -v models="$noise_models" -v size="$size" -v facts="$file" '
-      BEGIN { split(models, model, " "); printf "" >facts }
-      $1 != back { back = $1; k = 0; rectangle = $2; next }
-      { k++; resolved[k] += $3*(1 - $4); noise[k] += $3*$4
+      BEGIN { split(models, model, " "); printf "" >facts; back = -1 }
+      $1 != back { back = $1; k = 0; rectangle = $2; tall = $3 >= 2*4*2/size; snapshots += tall; next }
+      { k++; if (tall) { resolved[k] += $3*(1 - $4); noise[k] += $3*$4 }
         if (back == 0) row[k] = sprintf("| %s | %s | %.2f %% | %.3f %% | %s | %.3f %% | %.4f %% |", model[k], $3, 100*$4, 100*$5, $6, 100*$7, 100*$8) }
       END {
          if (row[1] == "") print "At d/dx = " size " the fluids have no rectangle in common at t = 20."
@@ -64,9 +70,10 @@ noise_at() { # D/DX
             for (k = 1; k <= 3; k++) print row[k]
          }
          if (noise[1] > 0) {
+            print "snapshots", snapshots >facts
             print "enstrophy_resolved_over_alpha_0", resolved[3]/resolved[1] >facts
             print "enstrophy_share_over_alpha_0", noise[3]/(resolved[3] + noise[3])*(resolved[1] + noise[1])/noise[1] >facts
-         } }' "$out/enstrophies"
+         } }' "$scratch/enstrophies"
    echo
    header 'model: P1, t = 7 to 20' deviation 'above f sqrt(d/g) = 10' 'above 40' 'largest rise from an octave to the next, from 20 on'
    for model in $noise_models; do
@@ -89,16 +96,16 @@ noise_at() { # D/DX
    done
    probe_differences "$out/dam_dynamic_ma_0.1_$size" "$out/dam_alpha_0.01_ma_0.1_$size" >>"$file"
    # The curve in the columns of a probe's table.
-   { echo 'time time_scaled P1'; grep -v '^[#t]' "$measured" | tr , ' ' | sort -n | awk '{ print $1, $1, $2 }'; } >"$out/measured.dat"
+   { echo 'time time_scaled P1'; grep -v '^[#t]' "$measured" | tr , ' ' | LC_ALL=C sort -n | awk '{ print $1, $1, $2 }'; } >"$scratch/measured.dat"
    for model in alpha_0.01 dynamic; do
-      p1_difference "2.6 6.15" "$out/measured.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/^/P1_measured_$model /" >>"$file"
+      p1_difference "2.6 6.15" "$scratch/measured.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/^/P1_measured_$model /" >>"$file"
    done
 }
 # Those that docs show.
 shown=' dissipation_by_model resolution_dynamic dynamic_model vorticity_fields vorticity_spectra P1 '
 # draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.
 draw() {
-   gnuplot -e "png='$plain/figures/$2.png'; $3" "utils/plots/$1.gp" 2>"$out/figures/messages" || { cat "$out/figures/messages" >&2; return 1; }
+   gnuplot -e "png='$plain/figures/$2.png'; $3" "utils/plots/$1.gp" 2>"$out/figures/messages" || { cat "$out/figures/messages" >&2; undrawn+=" $2"; return; }
    if [[ $shown == *" $2 "* ]]; then picture "$out/figures/$2.png"; else echo "picture $out/figures/$2.png"; fi
 }
 # snapshot_at RUN TIME: the first one that is not earlier; nothing if there is none.
@@ -113,23 +120,25 @@ draw_snapshot() {
    snapshot=$(snapshot_at "$2" "$3")
    [ -z "$snapshot" ] || draw field "$1" "snapshot='$snapshot'; panels='$4'; converter='$build/bin/dynsph-snapshot-to-text'"
 }
-# Lists for curves.gp: tables of runs that are there, and labels for them, '_' for a blank.
+# Lists for curves.gp: tables of runs and labels for them, '_' for a blank. False if none is here, or one that is known is not.
 files='' labels=''
 curves_of() { # LABEL:RUN...
    local pair
    files='' labels=''
    for pair in "$@"; do
-      [ -s "$out/${pair#*:}/energy.dat" ] || continue
+      if [ ! -s "$out/${pair#*:}/energy.dat" ]; then
+         # A picture without a run that is known would say less than the one that is published.
+         [ "$(fact "${pair#*:}" state)" != finished ] || return 1
+         continue
+      fi
       files+=" $plain/${pair#*:}/energy.dat" labels+=" ${pair%%:*}"
    done
    [ -n "$files" ]
 }
 draw_figures() {
-   local size alpha pairs model run runs=''
+   local size alpha pairs model run runs='' undrawn=''
    mkdir -p "$out/figures"
    # Lists of files are parted by blanks: a name that has none.
-   scratch=$(mktemp -d)
-   trap 'rm -rf "$scratch"' EXIT
    plain=$scratch/runs
    ln -s "$(cd "$out" && pwd)" "$plain"
    # The patch.
@@ -164,7 +173,7 @@ draw_figures() {
    # Energies, and how well they balance; where energy is dissipated; what the dynamic model does.
    for model in alpha_0.01 dynamic; do
       size=$(finest dam_${model}_ma_0.05 Q@12)
-      [ -n "$size" ] || continue
+      [ -n "$size" ] && [ -s "$out/dam_${model}_ma_0.05_$size/energy.dat" ] || continue
       run=dam_${model}_ma_0.05_$size runs+=" $plain/dam_${model}_ma_0.05_$size"
       gnuplot -e "dir='$plain/$run'" utils/plots/energy.gp && mv "$out/$run/energy.png" "$out/figures/energies_$model.png"
    done
@@ -176,6 +185,7 @@ draw_figures() {
    if [ -n "$size" ]; then draw_snapshot dynamic_model "dam_dynamic_ma_0.1_$size" 10 'vorticity delta'; fi
    size=$(noise_size_here)
    if [ -n "$size" ] && [ "$size" = "$(noise_size)" ]; then draw_noise "$size"; fi
+   [ -z "$undrawn" ] || { echo "reproduce: not drawn:$undrawn" >&2; return 1; }
 }
 draw_noise() { # D/DX
    local model run stem spectra='' fields='' probes='' labels='' quoted=''

@@ -18,11 +18,11 @@ model_settings() {
    strain_rate) echo 'model.diffusion=dynamic model.limiter=strain_rate fluid.reynolds=1e6' ;;
    esac
 }
-# Pictures and spectra need snapshots: fewer of large runs.
+# Pictures and spectra need snapshots: fewer of the largest run.
 snapshots() { # MODEL D/DX
    local fields=velocity,pressure,vorticity every=1
    case $1 in alpha_*) ;; *) fields+=,alpha,delta ;; esac
-   if [ "$2" -ge 800 ]; then every=5; fi
+   if [ "$2" -gt 800 ]; then every=5; fi
    echo "'output.snapshots=$every time' output.fields=$fields"
 }
 dam() { # MODEL MA D/DX [KEY=VALUE...]
@@ -41,7 +41,7 @@ bars() { # MODEL MA
    local k probes=
    [ "$2" = 0.1 ] || probes=output.probes=never
    for ((k = 0; k <= starts; k++)); do
-      echo "bar_$1_ma_$2_$k dam_break scene.resolution=$question fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
+      echo "bar_$1_ma_$2_${question}_$k dam_break scene.resolution=$question fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
          output.snapshots=never $probes
    done
 }
@@ -65,7 +65,7 @@ reading_runs() {
       for model in alpha_0.01 dynamic; do
          case $model$name in alpha_*strain_rate* | alpha_*no_viscosity*) continue ;; esac
          for mach in 0.1 0.05; do
-            echo "reading_${model}_ma_${mach}_${name% } dam_break scene.resolution=$question fluid.mach=$mach $(model_settings $model) $settings" \
+            echo "reading_${model}_ma_${mach}_${name% }_$question dam_break scene.resolution=$question fluid.mach=$mach $(model_settings $model) $settings" \
                output.snapshots=never output.probes=never
          done
       done

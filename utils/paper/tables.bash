@@ -2,57 +2,84 @@
 
 # Facts of runs, a file each with lines 'key value'. They go where tables go: so a campaign can be pieced together on several machines,
 # and its tables be made again, long after the runs themselves are gone.
-facts=${DYNSPH_TABLES:+$DYNSPH_TABLES/$(basename "$out")}
+facts=${DYNSPH_TABLES:+$DYNSPH_TABLES/$(basename "$out")_facts}
 facts=${facts:-$out/facts}
 
-# Makes those of each run that is here and has gone on; one under way does not take the place of one that has ended.
+# Makes those of each run that is here and has gone on since. One that has not ended takes the place of no other, nor does an older one.
 gather() {
-   local dir name state of version
-   mkdir -p "$facts"
+   local dir name state of known
    for dir in "$out"/*/; do
       dir=${dir%/} name=$(basename "$dir")
       [ -s "$dir/energy.dat" ] || continue
-      state='under way'
+      # The time first: should the run end after that, it is seen again.
+      of=$(last_written "$dir")
+      state='not ended'
       if has_finished "$dir"; then state=finished; elif ended "$dir"; then state=failed; fi
-      of=$(for file in "$dir/energy.dat" "$dir/summary.txt"; do [ ! -e "$file" ] || date -r "$file" '+%F %T.%N'; done | tr '\n' ' ')
-      [ "$(fact "$name" of)" != "${of% }" ] || continue
-      [ "$state" != 'under way' ] || [ "$(fact "$name" state)" != finished ] || continue
+      known=$(fact "$name" state)
+      case $state$known in
+      'not endedfinished' | 'not endedfailed') continue ;;
+      *-) ;;
+      *) [[ $(fact "$name" of) < $of ]] || continue ;;
+      esac
       {
          echo "state $state"
-         echo "of ${of% }"
-         version=$(sed -n 's/^│ dynsph *\(.*[^ ]\) *│$/\1/p' "$dir/run.log" | tail -n 1)
-         echo "version $version"
-         # Version (commit, build type) as `--version` has it.
-         grep -F "$(sed 's/\([^ ]*\) \(.*\) \([^ ]*\)/dynsph \1 (\2, \3)/' <<<"$version")" "$out/made_with" | tail -n 1 | sed 's/^/made_with /'
+         echo "of $of"
+         version_of "$dir"
          case $state in
          finished)
             awk -f utils/paper/facts.awk "$dir/summary.txt" "$dir/energy.dat"
             case $name in
             patch*) densities "$dir" ;;
-            bar_*_ma_0.1_[1-9]) probe_differences "${dir%_*}_0" "$dir" ;;
+            bar_*_ma_0.1_*_[1-9]) probe_differences "${dir%_*}_0" "$dir" ;;
             esac ;;
+         failed) tail -n 1 "$dir/energy.dat" | awk '{ print "t", $2 }' ;;
          *) awk -f utils/paper/facts.awk "$dir/energy.dat" ;;
          esac
-      } >"$facts/.partial"
-      mv "$facts/.partial" "$facts/$name"
+      } >"$scratch/facts"
+      put "$scratch/facts" "$facts/$name"
    done
 }
 has_finished() { grep -qsE '^status = (finished|stopped: max_steps)' "$1/summary.txt"; }
-# Of all snapshots of a run, the largest share that 99.9 % of the particles do not exceed, the largest rms, and how many of the particles
-# are beyond 1 %, at most and on an average.
+# When the last of what facts are made of was written: of the run, and for a start of the one that it is compared with.
+last_written() { # DIRECTORY
+   local file
+   for file in "$1"/{energy.dat,summary.txt} "${1%_[1-9]}_0/summary.txt"; do
+      [ ! -e "$file" ] || date -u -r "$file" '+%F %T.%N'
+   done | LC_ALL=C sort | tail -n 1
+}
+# Version, and what the program was made with: the line of made_with that has the version as `--version` writes it.
+version_of() { # DIRECTORY
+   local version
+   version=$(sed -n 's/^│ dynsph *\(.*[^ ]\) *│$/\1/p' "$1/run.log" 2>/dev/null | tail -n 1)
+   [ -n "$version" ] || return 0
+   echo "version $version"
+   awk -v made="$(sed 's/\([^ ]*\) \(.*\) \([^ ]*\)/dynsph \1 (\2, \3)/' <<<"$version")" '
+      index($0, made) == 1 { line = $0 } END { if (line) print "made_with", line }' "$out/made_with" 2>/dev/null || true
+}
+# put FILE PLACE: whole or not at all, whoever else may write there.
+put() {
+   local partial
+   partial=$(mktemp "$(dirname "$2")/.XXXXXX")
+   cat "$1" >"$partial"
+   chmod 644 "$partial"
+   mv "$partial" "$2"
+}
+# Of all snapshots of a run, the largest share that 99.9 % of the particles do not exceed, the largest rms, and the most of the particles
+# that are beyond 1 %.
 densities() { # DIRECTORY
    local snapshot
    for snapshot in "$1"/snapshot_??????.vtkhdf; do
       [ -e "$snapshot" ] || continue
-      "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$out/snapshot.txt" >/dev/null
-      awk -f utils/paper/density.awk "$out/snapshot.txt"
-   done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2; if ($3 > most) most = $3; sum += $3 }
-      END { if (NR) printf "variation_999 %s\nvariation_rms %s\nbeyond_most %s\nbeyond_mean %.3g\n", share, rms, most, sum/NR }'
-   rm -f "$out/snapshot.txt"
+      "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$scratch/snapshot.txt" >/dev/null
+      awk -f utils/paper/density.awk "$scratch/snapshot.txt"
+   done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2; if ($3 > most) most = $3 }
+      END { if (NR) printf "variation_999 %s\nvariation_rms %s\nbeyond_most %s\n", share, rms, most }'
 }
-# How far P1 of two runs is apart, before the plunging jet lands and from t = 8 on.
+# How far P1 of two runs is apart, before the plunging jet lands and from t = 8 on; nothing if one has not got there.
 probe_differences() { # DIRECTORY DIRECTORY
-   [ ! -s "$1/probes.dat" ] || p1_difference '2.6 6.15 8 20' "$1/probes.dat" "$2/probes.dat" | awk '{ print "P1_before", $1; print "P1_after", $3 }'
+   local dir
+   for dir in "$@"; do { has_finished "$dir" && [ -s "$dir/probes.dat" ]; } || return 0; done
+   p1_difference '2.6 6.15 8 20' "$1/probes.dat" "$2/probes.dat" | awk '{ print "P1_before", $1; print "P1_after", $3 }'
 }
 p1_difference() { awk -v probe=P1 -v windows="$1" -v width=0.2 -f utils/studies/probe_difference.awk "$2" "$3"; }
 # fact RUN KEY [FORM]: '-' where it is not known, or no number although FORM is that of one.
@@ -76,18 +103,20 @@ spread() {
    printf '%s\n' "$@" | awk '$1 == "-" { next } { if (!n++ || $1 < low) low = $1; if (n == 1 || $1 > high) high = $1; sum += $1 }
       END { if (n > 1 && sum > 0) printf "%.3f", (high - low)/(sum/n); else printf "-" }'
 }
-# How far runs whose starts differ by 1e-12 are apart: standard deviation of a fact.
+# Runs whose starts differ by 1e-12: standard deviation of a fact, with '+-' as it is shown, and mean of those whose start is not the
+# unchanged one.
+starts_of() { # MODEL MA KEY NUMBERS
+   local file
+   for file in "$facts/bar_$1_ma_$2_${question}"_$4; do
+      [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"
+   done | awk '$1 + 0 == $1'
+}
 deviation() { # MODEL MA KEY
-   local file
-   for file in "$facts/bar_$1_ma_$2"_[0-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
-      awk '$1 == "-" { next } { n++; sum += $1; square += $1^2 } END { if (n > 2) { v = (square - sum^2/n)/(n - 1); printf "%.3f", sqrt(v > 0 ? v : 0) } else printf "-" }'
+   starts_of "$@" '[0-9]' |
+      awk '{ n++; sum += $1; square += $1^2 } END { if (n > 2) { v = (square - sum^2/n)/(n - 1); printf "%.6g", sqrt(v > 0 ? v : 0) } else printf "-" }'
 }
-# What starts that differ by 1e-12 have of a fact on an average.
-average() { # MODEL MA KEY
-   local file
-   for file in "$facts/bar_$1_ma_$2"_[1-9]; do [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"; done |
-      awk '$1 == "-" { next } { n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'
-}
+varies() { deviation "$@" | awk '{ printf($1 == "-" ? "+- -" : "+- %.3f", $1) }'; }
+average() { starts_of "$@" '[1-9]' | awk '{ n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'; }
 # verdict KIND PAPER OURS: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %.
 verdict() {
    if [ "$3" = - ]; then echo 'not computed'; return; fi
@@ -130,7 +159,7 @@ claims() {
    header claim statement paper 'ours (d/dx)' verdict runs
    # The water patch: alpha as in the paper's runs at d/dx = 100 (runs.bash).
    simple W1 'density varies by less than 1 %: largest of a particle, at any time' below 0.01 patch_alpha_0.01 max_density_variation %.4f \
-      "beyond 1 % for $(each patch_alpha_0.01 variation_beyond %.4f) of the time"
+      "beyond 1 % for $(each patch_alpha_0.01 variation_beyond %.4f) of the time, and at most $(each patch_alpha_0.01 beyond_most %.2g) of the particles at once"
    simple W1 'the same, of 99.9 % of the particles in each snapshot' below 0.01 patch_alpha_0.01 variation_999 %.4f \
       "rms $(each patch_alpha_0.01 variation_rms %.4f)"
    simple W1 'error of the total energy' below 0.003 patch_alpha_0.01 balance %.1e
@@ -149,8 +178,8 @@ claims() {
    quotients W3 'Q_delta/Q_alpha, alpha h c0 as with alpha = 0.03' 0.5 patch_alpha_0.03 Q_delta/dE@140 Q_alpha/dE@140
    # The dam break with constant coefficients.
    simple D1 'error of the total energy, Ma 0.05' below 0.005 $dam balance %.1e
-   simple D1 'dissipated at t = 15.5' about 0.8 $dam Q@15.5 %.3f "+- $(deviation alpha_0.01 0.05 Q@15.5); 0.8 at t = $(each $dam t_80 %.1f)"
-   simple D1 'dissipated at t = 20' about 0.9 $dam Q@20 %.3f "+- $(deviation alpha_0.01 0.05 Q@20)"
+   simple D1 'dissipated at t = 15.5' about 0.8 $dam Q@15.5 %.3f "$(varies alpha_0.01 0.05 Q@15.5); 0.8 at t = $(each $dam t_80 %.1f)"
+   simple D1 'dissipated at t = 20' about 0.9 $dam Q@20 %.3f "$(varies alpha_0.01 0.05 Q@20)"
    simple D2 'first maximum of E_K' about 3.0 $dam time_kinetic_maximum %.2f
    simple D2 'maximum of E_P' about 5.5 $dam time_potential_maximum %.2f
    simple D2 'second maximum of E_K' about 6.8 $dam time_kinetic_maximum_2 %.2f
@@ -160,7 +189,7 @@ claims() {
       text='' values=()
       for alpha in $alphas; do
          values+=("$(fact "dam_alpha_${alpha}_ma_0.05_$size" Q@20 %.3f)")
-         text+=", ${values[-1]} +- $(deviation alpha_$alpha 0.05 Q@20)"
+         text+=", ${values[-1]} $(varies alpha_$alpha 0.05 Q@20)"
       done
       reckoned D3 "Q(20) for alpha = ${alphas// /, }: spread" below 0.05 "$(spread "${values[@]}") (${text#, })" "$(spread "${values[@]}")" \
          "dam_alpha_*_ma_0.05_$size"
@@ -179,13 +208,13 @@ claims() {
       [ $model = dynamic ] || text=', strain rate clipped'
       run=dam_${model}_ma_0.05
       quotients L2 "Q_alpha/Q_delta(20)$text" 1 $run Q_alpha/dE@20 Q_delta/dE@20
-      against L2 "Q(12) over that with alpha = 0$text" dam_alpha_0_ma_0.05 $run Q@12 alpha_0
-      against L2 "Q_alpha(20) over that with alpha = 0.005$text" dam_alpha_0.005_ma_0.05 $run Q_alpha/dE@20 alpha_0.005
-      against L2 "Q_delta(20) over that with alpha = 0.005$text" dam_alpha_0.005_ma_0.05 $run Q_delta/dE@20 alpha_0.005
+      against L2 "Q(12) over that with alpha = 0$text" dam_alpha_0_ma_0.05 $run Q@12 alpha_0 $model
+      against L2 "Q_alpha(20) over that with alpha = 0.005$text" dam_alpha_0.005_ma_0.05 $run Q_alpha/dE@20 alpha_0.005 $model
+      against L2 "Q_delta(20) over that with alpha = 0.005$text" dam_alpha_0.005_ma_0.05 $run Q_delta/dE@20 alpha_0.005 $model
    done
    simple L3 'Q_omega(20), Ma 0.1' below 0.01 dam_dynamic_ma_0.1 Q_omega/dE@20 %.1e
-   judged L3 'share of enstrophy above pi/(2h), Ma 0.1, t = 16 to 20, over that with alpha = 0' below 1 enstrophy_share_over_alpha_0
-   judged L3 'vorticity resembles that with alpha = 0: enstrophy below pi/(2h) over the one there' about 1 enstrophy_resolved_over_alpha_0
+   judged L3 'share of enstrophy above pi/(2h), Ma 0.1, over that with alpha = 0' below 1 enstrophy_share_over_alpha_0 "$(averaged)"
+   judged L3 'vorticity resembles that with alpha = 0: enstrophy below pi/(2h) over the one there' about 1 enstrophy_resolved_over_alpha_0 "$(averaged)"
    judged A1 'P1 of both models coincides to t = 6.15 (we say: to 2 %): rms of the difference, from 2.6 on' below 0.02 P1_before "$(starts P1_before)"
    judged A1 'and is shifted in time after it: the same from 8 on' - - P1_after "$(starts P1_after)"
    for model in dynamic alpha_0.01; do
@@ -203,6 +232,7 @@ judged() { # CLAIM STATEMENT KIND PAPER KEY [NOTE]
    sign=${sign/below/<} sign=${sign/about/\~}
    row "$1" "$2" "$sign $4" "$value ($size)${6:+; $6}" "$([ "$3" = - ] && echo '-' || verdict "$3" "$4" "$value")" '`dam_*_ma_0.1`'
 }
+averaged() { echo "mean of $(fact "noise_$(noise_size)" snapshots) snapshots, t = 16 to 20"; }
 starts() { echo "starts of one model: $(average dynamic 0.1 "$1"), $(average alpha_0.01 0.1 "$1") ($question)"; }
 # How much Q(20) changes with the resolution.
 all_sizes() { # CLAIM STATEMENT NAME MODEL
@@ -212,17 +242,17 @@ all_sizes() { # CLAIM STATEMENT NAME MODEL
       case $tier in quick | smoke) ;; *) [ "$size" -ge 100 ] || continue ;; esac
       values+=("$(fact "$3_$size" Q@20 %.3f)")
    done
-   reckoned "$1" "$2" below 0.05 "$(spread "${values[@]}"): $(each "$3" Q@20 %.3f), +- $(deviation "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
+   reckoned "$1" "$2" below 0.05 "$(spread "${values[@]}"): $(each "$3" Q@20 %.3f), $(varies "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
 }
 # A fact of the dynamic model over that of a run with constant coefficients, with what both vary by.
-against() { # CLAIM STATEMENT OTHER NAME KEY MODEL
+against() { # CLAIM STATEMENT OTHER NAME KEY OTHER_MODEL MODEL
    local size text='' last=-
    for size in $(sizes "$4" "$5"); do
       [ "$(fact "$3_$size" "$5")" != - ] || continue
       last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$3_$size" "$5")")
       text+=", $last = $(fact "$4_$size" "$5" %.3f)/$(fact "$3_$size" "$5" %.3f) ($size)"
    done
-   text=${text:-, -}", +- $(deviation dynamic 0.05 "$5") and $(deviation "$6" 0.05 "$5")"
+   text=${text:-, -}", $(varies dynamic 0.05 "$5") and $(varies "$6" 0.05 "$5")"
    reckoned "$1" "$2" about 1 "${text#, }" "$last" "$4, $3"
 }
 
@@ -232,12 +262,12 @@ error_bars() {
    header 'model, Ma' runs 'Q_alpha(12)' 'Q_delta(12)' 'Q(12)' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)'
    for mach in 0.05 0.1; do
       for model in $(printf 'alpha_%s ' $alphas) dynamic; do
-         [ -e "$facts/bar_${model}_ma_${mach}_0" ] || continue
+         [ -e "$facts/bar_${model}_ma_${mach}_${question}_0" ] || continue
          cells=()
          for key in Q_alpha/dE@12 Q_delta/dE@12 Q@12 Q_alpha/dE@20 Q_delta/dE@20 Q@15.5 Q@20; do
-            cells+=("$(fact "bar_${model}_ma_${mach}_0" $key %.3f) +- $(deviation "$model" "$mach" $key)")
+            cells+=("$(fact "bar_${model}_ma_${mach}_${question}_0" $key %.3f) $(varies "$model" "$mach" $key)")
          done
-         row "$model, $mach" "$(grep -ls '^Q@20 ' "$facts/bar_${model}_ma_${mach}"_[0-9] | wc -l)" "${cells[@]}"
+         row "$model, $mach" "$(grep -ls '^Q@20 ' "$facts/bar_${model}_ma_${mach}_${question}"_[0-9] | wc -l)" "${cells[@]}"
       done
    done
 }
@@ -290,8 +320,8 @@ ablation() {
    local model mach name
    header reading 'model, Ma' 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
    for model in alpha_0.01_ma_0.1 alpha_0.01_ma_0.05 dynamic_ma_0.1 dynamic_ma_0.05; do
-      reading 'as it is here' $model "bar_${model}_0"
-      while IFS='|' read -r name _; do reading "$name" $model "reading_${model}_${name% }"; done < <(readings)
+      reading 'as it is here' $model "bar_${model}_${question}_0"
+      while IFS='|' read -r name _; do reading "$name" $model "reading_${model}_${name% }_$question"; done < <(readings)
    done
 }
 reading() { # WORDS MODEL RUN
@@ -328,6 +358,7 @@ all_runs() {
 }
 
 write_tables() {
+   local file
    gather
    noise
    {
@@ -336,7 +367,8 @@ write_tables() {
       echo
       claims
       printf '\n## Noise (L3, A1)\n\n'
-      cat "$facts/noise_$(noise_size).md" 2>/dev/null || echo 'Alpha = 0, alpha = 0.01 and the dynamic model at Ma 0.1 are not there at one d/dx.'
+      cat "$facts/noise_$(noise_size).md" 2>/dev/null ||
+         echo 'Not known: it needs alpha = 0, alpha = 0.01 and the dynamic model at Ma 0.1 and one d/dx, with their snapshots and probes.'
       printf '\n## What single runs vary by\n\nRuns whose starts differ by 1e-12 (`body(1).velocity`), d/dx = %s: value and standard deviation.\n\n' "$question"
       error_bars
       printf '\n## Differences and what single runs vary by\n\n'
@@ -348,8 +380,8 @@ write_tables() {
       printf '\n## All runs\n\n'
       all_runs
       echo
-      echo "\`utils/paper/reproduce TIER RUN\` makes one of them; RUN/input_used.nml in $(basename "$out") is its input."
-   } >"$out/table.md"
-   cat "$facts"/* | sed -n 's/^made_with //p' | LC_ALL=C sort -u >"$out/facts_made_with"
-   publish paper "The paper's claims" "$out/table.md" "$out/facts_made_with"
+      echo "\`utils/paper/reproduce TIER RUN\` makes one of them; what is known of it is in $(basename "$facts")."
+   } >"$scratch/table.md"
+   for file in "$facts"/*; do [ ! -e "$file" ] || sed -n 's/^made_with //p' "$file"; done | LC_ALL=C sort -u >"$scratch/made_with"
+   publish paper "The paper's claims" "$scratch/table.md" "$scratch/made_with"
 }

@@ -7,6 +7,7 @@
 # JOBS             runs side by side, instead of 2
 # THREADS          threads of each of these runs, instead of 1: for a few large ones on many cores
 set -euo pipefail
+export LC_NUMERIC=C
 unset GNUTERM   # a terminal of the user's that pictures have no use for
 study=$(basename "$0")
 script=$(cd "$(dirname "$0")" && pwd)/$study
