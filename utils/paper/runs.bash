@@ -77,12 +77,10 @@ patch_readings() {
 as_it_is | water_patch |
 wide | water_patch_wide |
 hydrostatic_patch | water_patch | body(2).pressure=hydrostatic
-resting_patch | water_patch | body(2).velocity=0,0
 mirror_images | water_patch | domain.images=mirror
 cfl_0.75 | water_patch | time.cfl=0.75
 every_stage | water_patch | time.diffusion=every_stage
 h_1.5 | water_patch | model.smoothing_ratio=1.5
-closed_top | water_patch | domain.top=free_slip
 TABLE
 }
 patch_reading_runs() {
