@@ -98,11 +98,18 @@ sizes() { # NAME KEY
 finest() { sizes "$@" | tail -n 1; }
 # ratio A B: '-' where a number is not there.
 ratio() { awk -v a="$1" -v b="$2" 'BEGIN { if (a == "-" || b == "-" || b == 0) printf "-"; else printf "%.2f", a/b }'; }
-# Of numbers, (largest - least)/mean.
+# Of VALUE:DEVIATION words, (largest - least)/mean, and the deviation of that if those of the two are known.
 spread() {
-   printf '%s\n' "$@" | awk '$1 == "-" { next } { if (!n++ || $1 < low) low = $1; if (n == 1 || $1 > high) high = $1; sum += $1 }
-      END { if (n > 1 && sum > 0) printf "%.3f", (high - low)/(sum/n); else printf "-" }'
+   printf '%s\n' "$@" | awk -F: '
+      $1 == "-" { next }
+      { if (!n++ || $1 < low) { low = $1; of_low = $2 }
+        if (n == 1 || $1 > high) { high = $1; of_high = $2 }
+        sum += $1 }
+      END { if (n < 2 || sum <= 0) { printf "-"; exit }
+            printf "%.3f", (high - low)/(sum/n)
+            if (of_low of_high ~ /[0-9]/) printf " %.3f", sqrt(of_low^2 + of_high^2)/(sum/n) }'
 }
+spread_shown() { spread "$@" | sed 's/ / +- /'; }
 # Runs whose starts differ by 1e-12: standard deviation of a fact, with '+-' as it is shown, and mean of those whose start is not the
 # unchanged one.
 starts_of() { # MODEL MA KEY NUMBERS
@@ -117,12 +124,13 @@ deviation() { # MODEL MA KEY
 }
 varies() { deviation "$@" | awk '{ printf($1 == "-" ? "+- -" : "+- %.3f", $1) }'; }
 average() { starts_of "$@" '[1-9]' | awk '{ n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'; }
-# verdict KIND PAPER OURS: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %.
+# verdict KIND PAPER OURS [DEVIATION]: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %; within +-: above the bound,
+# but by less than twice the deviation.
 verdict() {
    if [ "$3" = - ]; then echo 'not computed'; return; fi
-   awk -v kind="$1" -v paper="$2" -v ours="$3" 'BEGIN {
+   awk -v kind="$1" -v paper="$2" -v ours="$3" -v s="${4:-0}" 'BEGIN {
       off = ours/paper - 1
-      if (kind == "below") print off <= 0 ? "holds" : off <= 0.3 ? "roughly" : "does not hold"
+      if (kind == "below") print off <= 0 ? "holds" : ours - 2*s <= paper ? "within +-" : off <= 0.3 ? "roughly" : "does not hold"
       else { if (off < 0) off = -off; print off <= 0.1 ? "holds" : off <= 0.3 ? "roughly" : "does not hold" }
    }'
 }
@@ -139,9 +147,9 @@ simple() { # CLAIM STATEMENT KIND PAPER NAME KEY [FORM] [NOTE]
    row "$1" "$2" "$([ "$3" = below ] && echo "< $4" || echo "~ $4")" "$(each "$5" "$6" "${7:-%.3g}")${8:+; $8}" \
       "$(verdict "$3" "$4" "$(fact "$5_$size" "$6")")" "\`$5\`"
 }
-# The same for a number that is reckoned from others: OURS has its text, LAST what is judged.
+# The same for a number that is reckoned from others: OURS has its text, LAST what is judged, with its deviation after a blank.
 reckoned() { # CLAIM STATEMENT KIND PAPER OURS LAST RUNS
-   row "$1" "$2" "$([ "$3" = below ] && echo "< $4" || echo "~ $4")" "$5" "$(verdict "$3" "$4" "$6")" "\`$7\`"
+   row "$1" "$2" "$([ "$3" = below ] && echo "< $4" || echo "~ $4")" "$5" "$(verdict "$3" "$4" $6)" "\`$7\`"
 }
 # Ratio of two facts of a run at all resolutions.
 quotients() { # CLAIM STATEMENT PAPER NAME KEY KEY
@@ -188,10 +196,10 @@ claims() {
    if [ -n "$size" ]; then
       text='' values=()
       for alpha in $alphas; do
-         values+=("$(fact "dam_alpha_${alpha}_ma_0.05_$size" Q@20 %.3f)")
-         text+=", ${values[-1]} $(varies alpha_$alpha 0.05 Q@20)"
+         values+=("$(fact "dam_alpha_${alpha}_ma_0.05_$size" Q@20 %.3f):$(deviation alpha_$alpha 0.05 Q@20)")
+         text+=", ${values[-1]%:*} $(varies alpha_$alpha 0.05 Q@20)"
       done
-      reckoned D3 "Q(20) for alpha = ${alphas// /, }: spread" below 0.05 "$(spread "${values[@]}") (${text#, })" "$(spread "${values[@]}")" \
+      reckoned D3 "Q(20) for alpha = ${alphas// /, }: spread" below 0.05 "$(spread_shown "${values[@]}") (${text#, })" "$(spread "${values[@]}")" \
          "dam_alpha_*_ma_0.05_$size"
    fi
    quotients D3 'Q_delta/Q_alpha(20) at alpha = 0.005, Ma/alpha = 10' 1 dam_alpha_0.005_ma_0.05 Q_delta/dE@20 Q_alpha/dE@20
@@ -240,9 +248,9 @@ all_sizes() { # CLAIM STATEMENT NAME MODEL
    for size in $(sizes "$3" Q@20); do
       # The paper says it of 100 and more.
       case $tier in quick | smoke) ;; *) [ "$size" -ge 100 ] || continue ;; esac
-      values+=("$(fact "$3_$size" Q@20 %.3f)")
+      values+=("$(fact "$3_$size" Q@20 %.3f):$(deviation "$4" 0.1 Q@20)")
    done
-   reckoned "$1" "$2" below 0.05 "$(spread "${values[@]}"): $(each "$3" Q@20 %.3f), $(varies "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
+   reckoned "$1" "$2" below 0.05 "$(spread_shown "${values[@]}"): $(each "$3" Q@20 %.3f), $(varies "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
 }
 # A fact of the dynamic model over that of a run with constant coefficients, with what both vary by.
 against() { # CLAIM STATEMENT OTHER NAME KEY OTHER_MODEL MODEL
@@ -321,12 +329,12 @@ ablation() {
    header reading 'model, Ma' 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
    for model in alpha_0.01_ma_0.1 alpha_0.01_ma_0.05 dynamic_ma_0.1 dynamic_ma_0.05; do
       reading 'as it is here' $model "bar_${model}_${question}_0"
-      while IFS='|' read -r name _; do reading "$name" $model "reading_${model}_${name% }_$question"; done < <(readings)
+      while IFS='|' read -r name _; do reading "${name% }" $model "reading_${model}_${name% }_$question"; done < <(readings)
    done
 }
 reading() { # WORDS MODEL RUN
    local model=${2/_ma_/, }
-   [ -e "$facts/$3" ] || return 0
+   [ "$(fact "$3" state)" = finished ] || return 0
    row "${1//_/ }" "${model//_/ }" "$(fact "$3" time_kinetic_maximum %.2f)" "$(fact "$3" time_potential_maximum %.2f)" "$(fact "$3" time_kinetic_maximum_2 %.2f)" \
       "$(fact "$3" Q_alpha/dE@20 %.3f)" "$(fact "$3" Q_delta/dE@20 %.3f)" "$(fact "$3" Q@15.5 %.3f)" "$(fact "$3" Q@20 %.3f)" "$(fact "$3" balance %.1e)" \
       "$(fact "$3" alpha_mean@12 %.4f)" "$(fact "$3" alpha_max@12 %.4f)" "$(fact "$3" delta_mean@12 %.3f)"
@@ -338,7 +346,7 @@ patch_ablation() {
    header reading "${cells[@]}" 'Q_alpha/Q_delta, alpha = 0.01' 'largest density variation' 'of 99.9 %' 'beyond 1 %, share of the time' 'balance error'
    while IFS='|' read -r name _; do
       name=patchreading_${name% } run=${name}_alpha_0.01_$patch_question
-      [ -e "$facts/$run" ] || continue
+      [ "$(fact "$run" state)" = finished ] || continue
       cells=()
       for alpha in $patch_alphas; do cells+=("$(fact "${name}_alpha_${alpha}_$patch_question" Q@140 %.3f)"); done
       name=${name#*_}
@@ -362,8 +370,9 @@ write_tables() {
    gather
    noise
    {
-      echo 'Times are t sqrt(g/d), energies shares of Delta E_M^tot. Holds: the number as the paper has it, or within 10 % of one that it gives as'
-      echo "approximate; roughly: within 30 %; judged at the finest d/dx. '+-': standard deviation of runs whose starts differ by 1e-12, d/dx = $question."
+      echo "Times are t sqrt(g/d), energies shares of Delta E_M^tot. '+-': standard deviation of runs whose starts differ by 1e-12, d/dx = $question."
+      echo 'Holds: the number as the paper has it, or within 10 % of one that it gives as approximate; roughly: within 30 %; within +-: beyond'
+      echo 'a bound by less than twice the deviation. Judged at the finest d/dx.'
       echo
       claims
       printf '\n## Noise (L3, A1)\n\n'
