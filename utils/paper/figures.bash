@@ -20,7 +20,7 @@ noise_size_here() {
 }
 noise_size() {
    local file
-   for file in "$facts"/noise_*.md; do [ ! -e "$file" ] || basename "$file" .md; done | sed 's/noise_//' | sort -n | tail -n 1
+   for file in "$facts"/noise_*.tables; do [ ! -e "$file" ] || basename "$file" .tables; done | sed 's/noise_//' | sort -n | tail -n 1
 }
 # The K-th but last snapshot of a run; 0: the last; nothing if there are not so many.
 last_snapshot() {
@@ -38,15 +38,15 @@ enstrophies() { # SNAPSHOT...
    "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
 }
 
-# Makes facts noise_D/DX and tables noise_D/DX.md: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while the flow is
+# Makes facts noise_D/DX and tables noise_D/DX.tables: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while the flow is
 # violent, and how far models are apart before and after the plunging jet lands, and from what was measured.
 noise() {
    local size
    size=$(noise_size_here)
    [ -n "$size" ] || return 0
-   noise_at "$size" >"$scratch/noise.md"
+   noise_at "$size" >"$scratch/noise.tables"
    put "$scratch/noise" "$facts/noise_$size"
-   put "$scratch/noise.md" "$facts/noise_$size.md"
+   put "$scratch/noise.tables" "$facts/noise_$size.tables"
 }
 noise_at() { # D/DX
    local size=$1 model run snapshots back above file=$scratch/noise measured=input/reference/lobovsky2014_p1_H300.csv

@@ -283,8 +283,7 @@ error_bars() {
 # standard deviation of a difference.
 differences() {
    local size
-   echo "Those that the paper sees or does not see, at the finest d/dx at which both runs are there; '+-' is that of a difference of two"
-   printf 'such runs at d/dx = %s. Real: more than twice that.\n\n' "$question"
+   printf "At the finest d/dx that both runs have; '+-' is that of a difference, d/dx = %s. Real: more than twice that.\n\n" "$question"
    header claim 'difference (d/dx)' ours '+-' real
    # Constant coefficients against each other, at Ma 0.05.
    difference D3 'Q(20), alpha = 0.03 and 0' Q@20 0.05 alpha_0.03 alpha_0
@@ -376,9 +375,9 @@ write_tables() {
       echo
       claims
       printf '\n## Noise (L3, A1)\n\n'
-      cat "$facts/noise_$(noise_size).md" 2>/dev/null ||
+      cat "$facts/noise_$(noise_size).tables" 2>/dev/null ||
          echo 'Not known: it needs alpha = 0, alpha = 0.01 and the dynamic model at Ma 0.1 and one d/dx, with their snapshots and probes.'
-      printf '\n## What single runs vary by\n\nRuns whose starts differ by 1e-12 (`body(1).velocity`), d/dx = %s: value and standard deviation.\n\n' "$question"
+      printf '\n## What single runs vary by\n\nStarts that differ by 1e-12 (`body(1).velocity`), d/dx = %s.\n\n' "$question"
       error_bars
       printf '\n## Differences and what single runs vary by\n\n'
       differences
@@ -389,7 +388,7 @@ write_tables() {
       printf '\n## All runs\n\n'
       all_runs
       echo
-      echo "\`utils/paper/reproduce TIER RUN\` makes one of them; what is known of it is in $(basename "$facts")."
+      echo "Facts of each: $(basename "$facts")."
    } >"$scratch/table.md"
    for file in "$facts"/*; do [ ! -e "$file" ] || sed -n 's/^made_with //p' "$file"; done | LC_ALL=C sort -u >"$scratch/made_with"
    publish paper "The paper's claims" "$scratch/table.md" "$scratch/made_with"
