@@ -1,4 +1,4 @@
-# How far the density is from rho0 in a snapshot: the share that 99.9 % of the particles do not exceed, the rms, and what part of the
+# How far the density is from rho0 in a snapshot: the share that 99.8 % of the particles do not exceed, the rms, and what part of the
 # particles is beyond 1 %.
 #
 # usage: awk -f density.awk TABLE     TABLE: from dynsph-snapshot-to-text, with pressures
@@ -13,7 +13,7 @@
    bin[int(1e5*x)]++; if (int(1e5*x) > top) top = int(1e5*x)
 }
 END {
-   left = 0.001*n
+   left = 0.002*n
    for (k = top; k > 0; k--) { left -= bin[k]; if (left < 0) break }
    printf "%.5f %.5f %.3g\n", (k + 1)/1e5, sqrt(sum/n), beyond/n
 }

@@ -3,8 +3,8 @@
 # usage: awk -f facts.awk RESULT/summary.txt RESULT/energy.dat     the first only where the run has ended
 #
 # The last time and whether the run has ended; of energy.dat each column at times of interest (COLUMN@T), when 80 and 90 % are
-# dissipated; where it has ended the largest error of the balance, how much of the time the density varies by more than 1 %, and all of
-# the summary.
+# dissipated; where it has ended the largest error of the balance, how much of the time the density varies by more than 1 %, by how much
+# from t = 30 on, and all of the summary.
 FILENAME ~ /summary.txt$/ { ended = 1; value = $0; sub(/^[^=]*= */, "", value); print $1, value; next }
 /^#/ { next }
 !columns {
@@ -33,6 +33,7 @@ FILENAME ~ /summary.txt$/ { ended = 1; value = $0; sub(/^[^=]*= */, "", value); 
    if (error > largest) largest = error
    if ("density_variation" in column) {
       variation = $column["density_variation"]
+      if (t >= 30 && variation > late) late = variation
       if (last != "") { span += t - last; if (variation > 0.01) beyond += t - last }
    }
    last = t
@@ -42,4 +43,5 @@ END {
    if (!ended) exit   # what is the largest is not known yet
    print "balance", largest
    if (span > 0) print "variation_beyond", beyond/span
+   if (late > 0) print "variation_from_30", late
 }
