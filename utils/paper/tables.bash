@@ -73,7 +73,7 @@ densities() { # DIRECTORY
       "$build/bin/dynsph-snapshot-to-text" "$snapshot" "$scratch/snapshot.txt" >/dev/null
       awk -f utils/paper/density.awk "$scratch/snapshot.txt"
    done | awk '{ if ($1 > share) share = $1; if ($2 > rms) rms = $2; if ($3 > most) most = $3 }
-      END { if (NR) printf "variation_998 %s\nvariation_rms %s\nbeyond_most %s\n", share, rms, most }'
+      END { if (NR) printf "variation_998 %s\nvariation_rms %s\nbeyond_most %g\n", share, rms, most }'
 }
 # How far P1 of two runs is apart, before the plunging jet lands and from t = 8 on; nothing if one has not got there.
 probe_differences() { # DIRECTORY DIRECTORY
@@ -91,9 +91,8 @@ fact() {
 sizes() { # NAME KEY
    local file
    for file in "$facts/$1"_*; do
-      [[ ${file##*_} =~ ^[0-9]+$ ]] && [ "${file%_*}" = "$facts/$1" ] && grep -q "^$2 [-0-9]" "$file" && echo "${file##*_}"
+      if [[ ${file##*_} =~ ^[0-9]+$ ]] && [ "${file%_*}" = "$facts/$1" ] && grep -q "^$2 [-0-9]" "$file"; then echo "${file##*_}"; fi
    done | sort -n
-   true
 }
 finest() { sizes "$@" | tail -n 1; }
 # ratio A B: '-' where a number is not there.
