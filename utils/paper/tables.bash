@@ -183,6 +183,7 @@ claims() {
          "$(spread "${values[@]}")" "patch_alpha_*_$size"
    fi
    quotients W3 'Q_alpha/Q_delta, alpha h c0 as with alpha = 0.01' 1 patch_alpha_0.01 Q_alpha/dE@140 Q_delta/dE@140
+   quotients W3 'the same, patch 2 d wide' 1 patchwide_alpha_0.01 Q_alpha/dE@140 Q_delta/dE@140
    quotients W3 'Q_delta/Q_alpha, alpha h c0 as with alpha = 0.03' 0.5 patch_alpha_0.03 Q_delta/dE@140 Q_alpha/dE@140
    # The dam break with constant coefficients.
    simple D1 'error of the total energy, Ma 0.05' below 0.005 $dam balance %.1e
