@@ -38,8 +38,8 @@ enstrophies() { # SNAPSHOT...
    "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
 }
 
-# Makes facts noise_D/DX and tables noise_D/DX.tables: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while the flow is
-# violent, and how far models are apart before and after the plunging jet lands, and from what was measured.
+# Makes facts noise_D/DX and tables noise_D/DX.tables: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while
+# the flow is violent, and how far models are apart before and after the plunging jet lands, and from what was measured.
 noise() {
    local size
    size=$(noise_size_here)
@@ -101,6 +101,7 @@ noise_at() { # D/DX
       p1_difference "2.6 6.15" "$scratch/measured.dat" "$out/dam_${model}_ma_0.1_$size/probes.dat" | sed "s/^/P1_measured_$model /" >>"$file"
    done
 }
+
 # Those that docs show.
 shown=' dissipation_by_model resolution_dynamic dynamic_model vorticity_fields vorticity_spectra P1 '
 # draw SCRIPT PICTURE SETTINGS: one picture in $out/figures.

@@ -253,7 +253,7 @@ all_sizes() { # CLAIM STATEMENT NAME MODEL
    done
    reckoned "$1" "$2" below 0.05 "$(spread_shown "${values[@]}"): $(each "$3" Q@20 %.3f), $(varies "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
 }
-# A fact of the dynamic model over that of a run with constant coefficients, with what both vary by.
+# A fact of a run with the dynamic model over that of one with constant coefficients, with what both models vary by.
 against() { # CLAIM STATEMENT OTHER NAME KEY OTHER_MODEL MODEL
    local size text='' last=-
    for size in $(sizes "$4" "$5"); do
@@ -261,7 +261,7 @@ against() { # CLAIM STATEMENT OTHER NAME KEY OTHER_MODEL MODEL
       last=$(ratio "$(fact "$4_$size" "$5")" "$(fact "$3_$size" "$5")")
       text+=", $last = $(fact "$4_$size" "$5" %.3f)/$(fact "$3_$size" "$5" %.3f) ($size)"
    done
-   text=${text:-, -}", $(varies dynamic 0.05 "$5") and $(varies "$6" 0.05 "$5")"
+   text=${text:-, -}", $(varies "$7" 0.05 "$5") and $(varies "$6" 0.05 "$5")"
    reckoned "$1" "$2" about 1 "${text#, }" "$last" "$4, $3"
 }
 
@@ -283,7 +283,6 @@ error_bars() {
 # Differences between runs that the paper speaks of: larger than what two runs differ by anyhow, when they are more than twice the
 # standard deviation of a difference.
 differences() {
-   local size
    printf "'+-' is that of a difference at d/dx = %s; a change of d/dx may do more. Real: more than twice that.\n\n" "$question"
    header claim 'difference (d/dx)' ours '+-' real
    # Constant coefficients against each other, at Ma 0.05.
@@ -318,15 +317,14 @@ between_sizes() { # CLAIM MODEL
    done
 }
 compared() { # CLAIM WORDS A B DEVIATION DEVIATION
-   local cells
-   cells=$(awk -v a="$3" -v b="$4" -v s="$5" -v r="$6" 'BEGIN { d = a - b
-      if (s == "-" || r == "-") printf "%+.3f|-|-", d
-      else { both = sqrt(s^2 + r^2); printf "%+.3f|%.3f|%s", d, both, (d > 2*both || -d > 2*both) ? "yes" : "no" } }')
-   row "$1" "$2" "${cells%%|*}" "$(cut -d'|' -f2 <<<"$cells")" "${cells##*|}"
+   awk -v claim="$1" -v words="$2" -v a="$3" -v b="$4" -v s="$5" -v r="$6" 'BEGIN {
+      d = a - b; both = real = "-"
+      if (s != "-" && r != "-") { both = sprintf("%.3f", sqrt(s^2 + r^2)); real = d^2 > 4*(s^2 + r^2) ? "yes" : "no" }
+      printf "| %s | %s | %+.3f | %s | %s |\n", claim, words, d, both, real }'
 }
 # --- What other readings of the paper do.
 ablation() {
-   local model mach name
+   local model name
    header reading 'model, Ma' 'E_K max' 'E_P max' 'E_K max' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)' 'balance error' 'alpha mean(12)' 'alpha max(12)' 'delta mean(12)'
    for model in alpha_0.01_ma_0.1 alpha_0.01_ma_0.05 dynamic_ma_0.1 dynamic_ma_0.05; do
       reading 'as it is here' $model "bar_${model}_${question}_0"
