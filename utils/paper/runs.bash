@@ -37,11 +37,11 @@ patch() { # MODEL D/DX [SCENE NAME KEY=VALUE...]
       "'output.snapshots=5 time' ${*:5}"
 }
 # Starts that differ by less than round-off does after some steps; 0 is the unchanged one. Pressures are compared at Ma 0.1.
-bars() { # MODEL MA
+bars() { # MODEL MA D/DX
    local k probes=
    [ "$2" = 0.1 ] || probes=output.probes=never
    for ((k = 0; k <= starts; k++)); do
-      echo "bar_$1_ma_$2_${question}_$k dam_break scene.resolution=$question fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
+      echo "bar_$1_ma_$2_$3_$k dam_break scene.resolution=$3 fluid.mach=$2 $(model_settings "$1") body(1).velocity=${k}e-12,0" \
          output.snapshots=never $probes
    done
 }
@@ -75,7 +75,10 @@ reading_runs() {
 patch_readings() {
    cat <<'TABLE'
 as_it_is | water_patch |
-wide | water_patch_wide |
+2_d_wide | water_patch_wide |
+3_d_wide | water_patch | body(2).lower=3.5,1 body(2).upper=6.5,2
+4_d_wide | water_patch | body(2).lower=3,1 body(2).upper=7,2
+at_the_wall | water_patch | body(2).lower=0,1 body(2).upper=1,2
 hydrostatic_patch | water_patch | body(2).pressure=hydrostatic
 mirror_images | water_patch | domain.images=mirror
 cfl_0.75 | water_patch | time.cfl=0.75
@@ -119,8 +122,9 @@ campaign() {
    for size in $middle $coarse; do
       for model in dynamic alpha_0.01 alpha_0; do dam $model 0.1 $size; done
    done
-   for model in $(printf 'alpha_%s ' $alphas) dynamic; do bars "$model" 0.05; done
-   for model in alpha_0 alpha_0.01 dynamic; do bars "$model" 0.1; done
+   for model in $(printf 'alpha_%s ' $alphas) dynamic; do bars "$model" 0.05 $question; done
+   for model in alpha_0 alpha_0.01 dynamic; do bars "$model" 0.1 $question; done
+   for model in alpha_0.01 dynamic; do bars "$model" 0.1 $middle; done   # A1, D4, L4
    reading_runs
    patch_reading_runs
 }

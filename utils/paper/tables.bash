@@ -109,20 +109,33 @@ spread() {
             if (of_low of_high ~ /[0-9]/) printf " %.3f", sqrt(of_low^2 + of_high^2)/(sum/n) }'
 }
 spread_shown() { spread "$@" | sed 's/ / +- /'; }
-# Runs whose starts differ by 1e-12: standard deviation of a fact, with '+-' as it is shown, and mean of those whose start is not the
-# unchanged one.
-starts_of() { # MODEL MA KEY NUMBERS
+# Runs whose starts differ by 1e-12. d/dx of those of a model, the coarsest first, and how many starts have ended.
+bar_sizes() { # MODEL MA
+   { grep -ls '^state finished' "$facts/bar_$1_ma_$2"_*_[0-9] || true; } |
+      awk -F_ '{ n[$(NF - 1)]++ } END { for (size in n) print size, n[size] }' | sort -n
+}
+# The d/dx whose starts are asked: a given one if it has as many as any other, else the finest that has.
+bar_size() { # MODEL MA [D/DX]
+   bar_sizes "$1" "$2" | awk -v wanted="${3:-}" '
+      $2 > most { most = $2; size = "" }
+      $2 == most && size != wanted || size == "" { size = $1 }
+      END { print size }'
+}
+# Standard deviation of a fact, with '+-' as it is shown, and mean of those whose start is not the unchanged one.
+starts_of() { # MODEL MA KEY NUMBERS D/DX
    local file
-   for file in "$facts/bar_$1_ma_$2_${question}"_$4; do
+   for file in "$facts/bar_$1_ma_$2_$5"_$4; do
       [ ! -e "$file" ] || echo "$(fact "$(basename "$file")" "$3")"
    done | awk '$1 + 0 == $1'
 }
-deviation() { # MODEL MA KEY
-   starts_of "$@" '[0-9]' |
+deviation() { # MODEL MA KEY [D/DX]
+   starts_of "$1" "$2" "$3" '[0-9]' "$(bar_size "$1" "$2" "${4:-}")" |
       awk '{ n++; sum += $1; square += $1^2 } END { if (n > 2) { v = (square - sum^2/n)/(n - 1); printf "%.6g", sqrt(v > 0 ? v : 0) } else printf "-" }'
 }
 varies() { deviation "$@" | awk '{ printf($1 == "-" ? "+- -" : "+- %.3f", $1) }'; }
-average() { starts_of "$@" '[1-9]' | awk '{ n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'; }
+average() { # MODEL MA KEY
+   starts_of "$@" '[1-9]' "$(bar_size "$1" "$2")" | awk '{ n++; sum += $1 } END { if (n) printf "%.3f", sum/n; else printf "-" }'
+}
 # verdict KIND PAPER OURS [DEVIATION]: `below` a bound or `about` a number. Holds: to 10 %; roughly: to 30 %; within +-: above the bound,
 # but by less than twice the deviation.
 verdict() {
@@ -242,14 +255,14 @@ judged() { # CLAIM STATEMENT KIND PAPER KEY [NOTE]
    row "$1" "$2" "$sign $4" "$value ($size)${6:+; $6}" "$([ "$3" = - ] && echo '-' || verdict "$3" "$4" "$value")" '`dam_*_ma_0.1`'
 }
 averaged() { echo "mean of $(fact "noise_$(noise_size)" snapshots) snapshots, t = 16 to 20"; }
-starts() { echo "starts of one model: $(average dynamic 0.1 "$1"), $(average alpha_0.01 0.1 "$1") ($question)"; }
+starts() { echo "starts of one model: $(average dynamic 0.1 "$1") ($(bar_size dynamic 0.1)), $(average alpha_0.01 0.1 "$1") ($(bar_size alpha_0.01 0.1))"; }
 # How much Q(20) changes with the resolution.
 all_sizes() { # CLAIM STATEMENT NAME MODEL
    local size values=()
    for size in $(sizes "$3" Q@20); do
       # The paper says it of 100 and more.
       case $tier in quick | smoke) ;; *) [ "$size" -ge 100 ] || continue ;; esac
-      values+=("$(fact "$3_$size" Q@20 %.3f):$(deviation "$4" 0.1 Q@20)")
+      values+=("$(fact "$3_$size" Q@20 %.3f):$(deviation "$4" 0.1 Q@20 "$size")")
    done
    reckoned "$1" "$2" below 0.05 "$(spread_shown "${values[@]}"): $(each "$3" Q@20 %.3f), $(varies "$4" 0.1 Q@20)" "$(spread "${values[@]}")" "$3"
 }
@@ -267,23 +280,25 @@ against() { # CLAIM STATEMENT OTHER NAME KEY OTHER_MODEL MODEL
 
 # --- What starts that differ by 1e-12 do.
 error_bars() {
-   local model mach key cells
-   header 'model, Ma' runs 'Q_alpha(12)' 'Q_delta(12)' 'Q(12)' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)'
+   local model mach size n key run cells
+   header 'model, Ma' 'd/dx' runs 'Q_alpha(12)' 'Q_delta(12)' 'Q(12)' 'Q_alpha(20)' 'Q_delta(20)' 'Q(15.5)' 'Q(20)'
    for mach in 0.05 0.1; do
       for model in $(printf 'alpha_%s ' $alphas) dynamic; do
-         [ -e "$facts/bar_${model}_ma_${mach}_${question}_0" ] || continue
-         cells=()
-         for key in Q_alpha/dE@12 Q_delta/dE@12 Q@12 Q_alpha/dE@20 Q_delta/dE@20 Q@15.5 Q@20; do
-            cells+=("$(fact "bar_${model}_ma_${mach}_${question}_0" $key %.3f) $(varies "$model" "$mach" $key)")
-         done
-         row "$model, $mach" "$(grep -ls '^Q@20 ' "$facts/bar_${model}_ma_${mach}_${question}"_[0-9] | wc -l)" "${cells[@]}"
+         while read -r size n; do
+            run=bar_${model}_ma_${mach}_${size}_0
+            cells=()
+            for key in Q_alpha/dE@12 Q_delta/dE@12 Q@12 Q_alpha/dE@20 Q_delta/dE@20 Q@15.5 Q@20; do
+               cells+=("$(fact "$run" $key %.3f) $(varies "$model" "$mach" $key "$size")")
+            done
+            row "$model, $mach" "$size" "$n" "${cells[@]}"
+         done < <(bar_sizes "$model" "$mach")
       done
    done
 }
 # Differences between runs that the paper speaks of: larger than what two runs differ by anyhow, when they are more than twice the
 # standard deviation of a difference.
 differences() {
-   printf "'+-' is that of a difference at d/dx = %s; a change of d/dx may do more. Real: more than twice that.\n\n" "$question"
+   printf "'+-' is that of a difference, by the starts at this d/dx or the finest there are. Real: more than twice that.\n\n"
    header claim 'difference (d/dx)' ours '+-' real
    # Constant coefficients against each other, at Ma 0.05.
    difference D3 'Q(20), alpha = 0.03 and 0' Q@20 0.05 alpha_0.03 alpha_0
@@ -304,7 +319,7 @@ difference() { # CLAIM WORDS KEY MA MODEL MODEL
    local size
    { sizes "dam_$5_ma_$4" "$3"; sizes "dam_$6_ma_$4" "$3"; } | sort -n | uniq -d | while read -r size; do
       compared "$1" "$2 ($size)" "$(fact "dam_$5_ma_$4_$size" "$3")" "$(fact "dam_$6_ma_$4_$size" "$3")" \
-         "$(deviation "$5" "$4" "$3")" "$(deviation "$6" "$4" "$3")"
+         "$(deviation "$5" "$4" "$3" "$size")" "$(deviation "$6" "$4" "$3" "$size")"
    done
 }
 # Each resolution against the next finer one.
@@ -312,7 +327,7 @@ between_sizes() { # CLAIM MODEL
    local size coarser=''
    for size in $(sizes "dam_$2_ma_0.1" Q@20); do
       [ -z "$coarser" ] || compared "$1" "Q(20), ${2/_/ }, Ma 0.1, d/dx = $coarser and $size" "$(fact "dam_$2_ma_0.1_$coarser" Q@20)" \
-         "$(fact "dam_$2_ma_0.1_$size" Q@20)" "$(deviation "$2" 0.1 Q@20)" "$(deviation "$2" 0.1 Q@20)"
+         "$(fact "dam_$2_ma_0.1_$size" Q@20)" "$(deviation "$2" 0.1 Q@20 "$coarser")" "$(deviation "$2" 0.1 Q@20 "$size")"
       coarser=$size
    done
 }
@@ -369,7 +384,7 @@ write_tables() {
    gather
    noise
    {
-      echo "Times are t sqrt(g/d), energies shares of Delta E_M^tot. '+-': standard deviation of runs whose starts differ by 1e-12, d/dx = $question."
+      echo "Times are t sqrt(g/d), energies shares of Delta E_M^tot. '+-': standard deviation of runs whose starts differ by 1e-12, at the finest d/dx that they have."
       echo 'Holds: the number as the paper has it, or within 10 % of one that it gives as approximate; roughly: within 30 %; within +-: beyond'
       echo 'a bound by less than twice the deviation. Judged at the finest d/dx.'
       echo
@@ -377,7 +392,7 @@ write_tables() {
       printf '\n## Noise (L3, A1)\n\n'
       cat "$facts/noise_$(noise_size).tables" 2>/dev/null ||
          echo 'Not known: it needs alpha = 0, alpha = 0.01 and the dynamic model at Ma 0.1 and one d/dx, with their snapshots and probes.'
-      printf '\n## What single runs vary by\n\nStarts that differ by 1e-12 (`body(1).velocity`), d/dx = %s.\n\n' "$question"
+      printf '\n## What single runs vary by\n\nStarts that differ by 1e-12 (`body(1).velocity`).\n\n'
       error_bars
       printf '\n## Differences and what single runs vary by\n\n'
       differences
