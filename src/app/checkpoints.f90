@@ -77,7 +77,7 @@ contains
 
    !> Whether one is to be written where the particles are about to be sorted. At the end of a run this comes shortly before it,
    !! because the last step may be shorter than one of a run that goes on.
-   pure logical function wanted(self, scene, model, state, stop)
+   logical function wanted(self, scene, model, state, stop)
       class(checkpoints_t), intent(in) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -91,7 +91,7 @@ contains
    end function wanted
 
    ! Whether the run may end before the particles are sorted once more.
-   pure logical function ends_soon(scene, model, state)
+   logical function ends_soon(scene, model, state)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(run_state_t), intent(in) :: state

@@ -117,21 +117,23 @@ contains
          do k = 1, n_kinds
             if (.not. (near(beyond(1, k)) .and. near(beyond(2, k)))) cycle
             n = n + 1
-            if (write_them) call put(self, n, i, k, [image_of(law(1), k, place(1)), image_of(law(2), k, place(2))])
+            if (write_them) call put(self, n, i, n_kinds*(p%id(i) - 1) + k, k, &
+                                     [image_of(law(1), k, place(1)), image_of(law(2), k, place(2))])
          end do
       end do
    end subroutine look_at
 
-   subroutine put(self, n, i, k, place)
+   subroutine put(self, n, i, number, k, place)
       type(images_t), intent(inout) :: self
       integer, intent(in) :: n, i, k
+      integer, intent(in) :: number      ! of the image: its order must not depend on that of the slots
       real(dp), intent(in) :: place(2)   ! of the image
 
       self%unsorted_source(n) = i
       self%unsorted_kind(n) = k
       self%x(n) = place(1)
       self%y(n) = place(2)
-      self%number(n) = n
+      self%number(n) = number
    end subroutine put
 
    ! The numbers that there are need not be kept.

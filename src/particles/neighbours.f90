@@ -5,7 +5,7 @@
 !! lists are to hold, and allows for accelerations by a slack of each block; the time step verifies both, and has lists made again
 !! in time.
 module neighbours
-   use candidates, only: block_slots, candidates_t, list_group, trim_lists
+   use candidates, only: block_groups, candidates_t, list_group, trim_lists
    use box, only: left_wall, box_t
    use image_laws, only: as_scalar
    use images, only: fill_ghosts, images_t, list_images
@@ -41,9 +41,11 @@ module neighbours
       real(dp) :: slack = 0     !! that every block has at least
       real(dp) :: slack_time_2 = 0   !! slack of a block for its acceleration
       real(dp) :: image_slack = 0    !! that images were made for: no block may have more
-      real(dp) :: stray = 0     !! largest of all blocks
+      real(dp) :: stray = 0, next_stray = 0   !! largest of all blocks, as in margin_t
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
+      logical :: lasts = .false.     !! the lists serve for the next step
       integer :: n_blocks = 0
+      integer, allocatable :: first_block(:)         !! (strips+1) of each strip
       type(strips_t) :: strips               !! of the own slots
       type(images_t) :: images               !! behind the own slots
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
@@ -128,7 +130,7 @@ contains
 
       self%age = self%age + step
       self%margins%stray = self%margins%next_stray
-      self%stray = maxval(self%margins(:self%n_blocks)%stray)
+      self%stray = self%next_stray
       call swap_states(p%base, p%next)
       call fill_ghosts(self%images, box, p%base)
    end subroutine keep_order
@@ -198,20 +200,35 @@ contains
       call move_alloc(spare, p%dissipating)
    end subroutine permute_dissipated
 
+   ! A block lies in one strip, so that it does not depend on what other strips there are; those of a strip are about as long.
    subroutine lay_out_blocks(self)
       type(neighbours_t), intent(inout) :: self
-      integer :: b
+      integer :: b, k, first, last
 
-      self%n_blocks = (self%strips%n_slots + block_slots - 1)/block_slots
-      if (allocated(self%blocks)) then
-         if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
-      end if
-      if (.not. allocated(self%blocks)) &
-         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
-      do b = 1, self%n_blocks
-         self%blocks(b)%before = (b - 1)*block_slots
-         self%blocks(b)%n_clusters = min(block_slots, self%strips%n_slots - self%blocks(b)%before)/nl
-      end do
+      associate (strips => self%strips, groups => (self%strips%slot_start(2:self%strips%n + 1) &
+                                                   - self%strips%slot_start(:self%strips%n))/group_slots)
+         self%first_block = [1, (0, k=1, strips%n)]
+         do k = 1, strips%n
+            self%first_block(k + 1) = self%first_block(k) + (groups(k) + block_groups - 1)/block_groups
+         end do
+         self%n_blocks = self%first_block(strips%n + 1) - 1
+         if (allocated(self%blocks)) then
+            if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
+         end if
+         if (.not. allocated(self%blocks)) &
+            allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
+         do k = 1, strips%n
+            last = 0
+            associate (b0 => self%first_block(k) - 1, n => self%first_block(k + 1) - self%first_block(k))
+               do b = 1, n
+                  first = last
+                  last = b*groups(k)/n
+                  self%blocks(b0 + b)%before = strips%slot_start(k) - 1 + first*group_slots
+                  self%blocks(b0 + b)%n_clusters = (last - first)*group_slots/nl
+               end do
+            end associate
+         end do
+      end associate
    end subroutine lay_out_blocks
 
    ! The slack of each block, for the accelerations that its particles had.

@@ -86,8 +86,10 @@ contains
       integer, parameter :: max_strips = 4000000
       real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
       real(dp) :: first, last, offset
+      integer(i8) :: first_place   ! counted from the origin: what strip a point is in depends on no other point
       integer :: i
 
+      first_place = 0
       first = huge(1.0_dp)
       last = -huge(1.0_dp)
       !$omp parallel do default(none) shared(n_points, number, x) reduction(min:first) reduction(max:last)
@@ -103,17 +105,18 @@ contains
          self%n = -1
          offset = (first - self%origin)/self%width
          if (.not. (last - first < self%width*max_strips .and. abs(offset) < max_offset)) return
-         self%left = self%origin + self%width*floor(offset, i8)
-         self%n_places = int((last - self%left)/self%width) + 1
+         first_place = floor(offset, i8)
+         self%left = self%origin + self%width*first_place
+         self%n_places = int(floor((last - self%origin)/self%width, i8) - first_place) + 1
       end if
       call resize(self%strip_of, n_points)
       call resize(self%before, self%n_places + 1)
       self%before(:self%n_places + 1) = 0
-      !$omp parallel do default(none) shared(self, n_points, number, x)
+      !$omp parallel do default(none) shared(self, n_points, number, x, first_place)
       do i = 1, n_points
          self%strip_of(i) = 0
          if (number(i) == 0) cycle
-         self%strip_of(i) = min(self%n_places, int((x(i) - self%left)/self%width) + 1)
+         self%strip_of(i) = int(floor((x(i) - self%origin)/self%width, i8) - first_place) + 1
          !$omp atomic write
          self%before(self%strip_of(i)) = 1
       end do

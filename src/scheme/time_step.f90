@@ -4,7 +4,7 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
-   use candidates, only: block_groups
+   use communication, only: any_process, largest_of_all, sums_of_all
    use dissipation_sums, only: sum_dissipation
    use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
@@ -71,12 +71,11 @@ contains
       type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
 
-      sorts_next = run%step == 0
-      if (.not. sorts_next) sorts_next = .not. lists_hold(near, run%dt)
+      sorts_next = run%step == 0 .or. .not. near%lasts
    end function sorts_next
 
    !> What it sorts them for.
-   pure type(plan_t) function plan_next(model, near, run) result(plan)
+   type(plan_t) function plan_next(model, near, run) result(plan)
       type(model_t), intent(in) :: model
       type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
@@ -170,12 +169,14 @@ contains
    end function in_reach
 
    ! The step of eq. 8 and the diffusive limits.
-   pure real(dp) function stable_step(model, blocks)
+   real(dp) function stable_step(model, blocks)
       type(model_t), intent(in) :: model
       type(block_t), intent(in) :: blocks(:)
+      real(dp) :: largest(3)
 
-      stable_step = model%step_limit(maxval(blocks%largest_pi), model%alpha + maxval(blocks%largest_alpha), &
-                                     maxval(blocks%largest_delta))
+      largest = max(0.0_dp, [maxval(blocks%largest_pi), maxval(blocks%largest_alpha), maxval(blocks%largest_delta)])
+      call largest_of_all(size(largest), largest)
+      stable_step = model%step_limit(largest(1), model%alpha + largest(2), largest(3))
    end function stable_step
 
    ! Sorts the unchanged base state again, for the step that is known now.
@@ -255,11 +256,13 @@ contains
          changes(:, stage) = blocks%change(stage)
          if (stage < model%integrator%stages) call follow(model, p, near, run, stage, changes, timers, strayed)
       end do
-      near%jumped = any(blocks%wrapped)
+      near%jumped = any_process(any(blocks%wrapped))
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
       ! A solution that has left its range by so much is no better the second time.
-      if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
+      if (near%stray > model%kernel%support) then
+         if (any_process(any(blocks%lost_slot > 0))) strayed = .false.
+      end if
    end subroutine stages
 
    ! The power of walls that move, as a stage's part of the step's.
@@ -289,7 +292,7 @@ contains
       logical :: enough
 
       time = model%integrator%ahead(stage)*run%dt
-      if (lists_reach(near, time, changes(:, stage))) return
+      if (.not. any_process(.not. lists_reach(near, time, changes(:, stage)))) return
       call timers%start(phase_sort)
       call widen_margins(near, time, changes(:, stage), changes(:, 1), enough)
       strayed = strayed .or. .not. enough
@@ -401,20 +404,25 @@ contains
    ! Sums over each strip, and over these exact: neither threads nor the order of strips matter.
    subroutine collect(model, near, run, last_time, blocks)
       type(model_t), intent(in) :: model
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
       real(dp), allocatable :: powers(:, :)
-      real(dp) :: totals(5), moving_walls
+      real(dp) :: totals(5), moving_walls, largest(5)
+      integer(i8) :: counts(2)
       integer :: k
 
-      if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
-         run%limited = run%limited + 1
+      largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), &
+                             maxval(blocks%largest_pi), maxval(near%margins(:near%n_blocks)%next_stray)])
+      call largest_of_all(size(largest), largest)
+      counts = [sum(int(blocks%crossings, i8)), sum(int(blocks%singular, i8))]
+      call sums_of_all(size(counts), counts)
+      if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
       allocate (powers(5, near%strips%n))
       !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, near%strips%n/256))
       do k = 1, near%strips%n
-         powers(:, k) = strip_powers(near%strips%slot_start(k), near%strips%slot_start(k + 1) - 1, blocks)
+         powers(:, k) = strip_powers(near, k, blocks)
       end do
       !$omp end parallel do
       totals = exact_totals(powers)
@@ -423,23 +431,27 @@ contains
       run%work_delta = run%work_delta + totals(2)
       run%work_walls = run%work_walls + totals(3) + moving_walls
       run%work_force = run%work_force + totals(4)
-      run%crossings = run%crossings + sum(blocks%crossings)
-      run%singular = run%singular + sum(blocks%singular)
-      call take_extremes(model, maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), run)
-      run%lost_slot = maxval(blocks%lost_slot)
+      run%crossings = run%crossings + counts(1)
+      run%singular = run%singular + counts(2)
+      call take_extremes(model, largest(1), largest(2), largest(3), run)
+      run%lost_slot = max(0, maxval(blocks%lost_slot))
+      near%next_stray = largest(5)
+      near%lasts = .not. any_process(.not. lists_hold(near, run%dt))
    end subroutine collect
 
    ! The works and the wall power of a strip, group by group.
-   pure function strip_powers(first, last, blocks) result(powers)
-      integer, intent(in) :: first, last   !! slots
+   pure function strip_powers(near, strip, blocks) result(powers)
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: strip
       type(block_t), intent(in) :: blocks(:)
       real(dp) :: powers(5)
       integer :: b, g
 
       powers = 0
-      do g = (first - 1)/group_slots, last/group_slots - 1
-         b = g/block_groups
-         powers = powers + [blocks(b + 1)%work(g - b*block_groups + 1, :), blocks(b + 1)%wall_power(g - b*block_groups + 1)]
+      do b = near%first_block(strip), near%first_block(strip + 1) - 1
+         do g = 1, nl*near%blocks(b)%n_clusters/group_slots
+            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
+         end do
       end do
    end function strip_powers
 
