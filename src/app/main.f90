@@ -2,6 +2,7 @@
 program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
+   use communication, only: end_processes, start_processes
    use command_line, only: command_line_t, parse_command_line, write_help
    use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
@@ -30,6 +31,7 @@ program main
    character(:), allocatable :: arguments(:)
 
    call start_process()
+   call start_processes()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
@@ -50,6 +52,7 @@ program main
    else
       call run_scene(options, problem)
    end if
+   call end_processes()
    call end_program(problem)
 
 contains

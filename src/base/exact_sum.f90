@@ -162,7 +162,7 @@ contains
    end function bits_below
 
    !> Each sum becomes that of all processes.
-   pure subroutine add_over_processes(sums)
+   subroutine add_over_processes(sums)
       type(exact_sum_t), intent(inout) :: sums(:)
       integer(i8) :: numbers(n_digits + 3, size(sums))
       integer :: k

@@ -4,6 +4,7 @@
 !! between image and source, so that a linear hydrostatic field is continued exactly (docs/equations.md).
 module images
    use box, only: box_t, open_side
+   use halo, only: fill_copies, halo_t
    use image_laws, only: as_position, as_slip, as_velocity, as_wall_velocity, beyond, image_of, law_t, n_kinds
    use kinds, only: dp, i8
    use particles, only: particles_t, state_t, reserve_slots
@@ -15,10 +16,11 @@ module images
 
    integer, parameter :: chunk = 1024   ! slots that a thread looks at at a time
 
-   !> The images of a step: slot `n_own + k` is an image of slot `source(k)`.
+   !> The images of a step: slot `n_held + k` is an image of slot `source(k)`.
    type :: images_t
+      type(halo_t) :: halo                 !! copies among the sources
       integer :: n = 0
-      integer :: n_own = 0                 !! slots before them
+      integer :: n_held = 0                !! slots before them
       integer, allocatable :: source(:)    !! (n) slot of the source
       integer, allocatable :: kind(:)      !! (n) of module image_laws
       type(strips_t) :: strips             !! where to find them
@@ -35,7 +37,7 @@ module images
 
 contains
 
-   !> Finds the particles that have images, and sorts these into strips behind the own slots.
+   !> Finds the particles that have images, and sorts these into strips behind the slots held.
    !!
    !! Decides on the predicted positions that the strips were sorted by: a particle that may come closer than `reach` to a side
    !! within `travel` before or after that time gets an image.
@@ -50,8 +52,8 @@ contains
       integer :: b, i, k, n, n_chunks
 
       self%n = 0
-      self%n_own = p%n_own
-      n_chunks = (p%n_own + chunk - 1)/chunk
+      self%n_held = p%n_held
+      n_chunks = (p%n_held + chunk - 1)/chunk
       if (any(box%kind /= open_side)) then
          allocate (begin(n_chunks + 1), source=0)
          !$omp parallel do default(none) shared(self, box, p, tau, travel, reach, n_chunks, begin) schedule(static)
@@ -66,7 +68,7 @@ contains
       end if
       call make_room(self, self%n)
       n = self%n
-      p%n_slots = p%n_own + n
+      p%n_slots = p%n_held + n
       call reserve_slots(p, p%n_slots + group_slots)   ! module candidates looks at whole groups
       if (n == 0) then
          self%strips%n = 0
@@ -78,7 +80,7 @@ contains
          call look_at(self, box, p, tau, travel, reach, b, .true., k)
       end do
       !$omp end parallel do
-      call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), p%n_own + 1, .false.)
+      call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), p%n_held + 1, .false.)
       if (self%strips%n < 0) return   ! too long, as the fluid itself can be
       !$omp parallel do default(none) shared(self, n) private(i)
       do k = 1, n
@@ -107,7 +109,7 @@ contains
       normal = box%normal_velocity()
       least = merge(-huge(reach), reach, box%kind == open_side)
       near(0) = .true.
-      do i = (b - 1)*chunk + 1, min(b*chunk, p%n_own)
+      do i = (b - 1)*chunk + 1, min(b*chunk, p%n_held)
          if (p%id(i) == 0) cycle
          velocity = [p%base%u(i), p%base%v(i)]
          place = [p%base%x(i), p%base%y(i)] + tau*velocity
@@ -168,13 +170,14 @@ contains
       type(law_t) :: position(2), velocity(2)
       integer :: k, i, j, kind
 
+      call fill_copies(self%halo, state)
       if (self%n == 0) return
       position = [as_position(box, 1), as_position(box, 2)]
       velocity = [as_velocity(box, 1), as_velocity(box, 2)]
       !$omp parallel do default(none) shared(self, box, state, position, velocity) private(i, j, kind)
       do k = 1, self%n
          i = self%source(k)
-         j = self%n_own + k
+         j = self%n_held + k
          kind = self%kind(k)
          state%x(j) = image_of(position(1), kind, state%x(i))
          state%y(j) = image_of(position(2), kind, state%y(i))
@@ -193,14 +196,15 @@ contains
       type(law_t), intent(in) :: law
       real(dp), contiguous, intent(inout) :: field(:)   !! (n_slots)
 
-      call fill_from(self, law, field(:self%n_own), field(self%n_own + 1:))
+      call fill_copies(self%halo, field)
+      call fill_from(self, law, field(:self%n_held), field(self%n_held + 1:))
    end subroutine fill_field
 
    ! A field that images alone have.
    subroutine fill_from(self, law, own, field)
       type(images_t), intent(in) :: self
       type(law_t), intent(in) :: law
-      real(dp), contiguous, intent(in) :: own(:)        !! (n_own) of the sources
+      real(dp), contiguous, intent(in) :: own(:)        !! (n_held) of the sources
       real(dp), contiguous, intent(inout) :: field(:)   !! (n) of the images
       integer :: k
 
@@ -217,7 +221,7 @@ contains
       type(box_t), intent(in) :: box          !! at the time of the base state
       type(particles_t), intent(inout) :: p   !! jump and wall velocities of the images are set
 
-      associate (own => self%n_own)
+      associate (own => self%n_held)
          call fill_ghosts(self, as_slip(box, 1), p%base%u(:own), p%jump_u(own + 1:))
          call fill_ghosts(self, as_slip(box, 2), p%base%v(:own), p%jump_v(own + 1:))
          call fill_ghosts(self, as_wall_velocity(box, 1), p%base%u(:own), p%wall_u(own + 1:))

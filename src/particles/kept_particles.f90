@@ -22,6 +22,7 @@ contains
          slot = [(i, i=1, p%n)]
          p%id(:p%n) = slot
          p%n_own = p%n
+         p%n_held = p%n
          p%n_slots = p%n
       else
          do i = 1, p%n_own

@@ -6,6 +6,10 @@
 !! in time.
 module neighbours
    use candidates, only: block_groups, candidates_t, list_group, trim_lists
+   use communication, only: any_process, largest_of_all, n_processes
+   use division, only: division_t
+   use halo, only: find_halo
+   use migration, only: migrate
    use box, only: left_wall, box_t
    use image_laws, only: as_scalar
    use images, only: fill_ghosts, images_t, list_images
@@ -45,8 +49,10 @@ module neighbours
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
       logical :: lasts = .false.     !! the lists serve for the next step
       integer :: n_blocks = 0
-      integer, allocatable :: first_block(:)         !! (strips+1) of each strip
-      type(strips_t) :: strips               !! of the own slots
+      integer, allocatable :: first_block(:)         !! (own strips+1) of each own strip
+      integer :: sorts = 0      !! so far
+      type(division_t) :: division           !! among the processes
+      type(strips_t) :: strips               !! of the slots held
       type(images_t) :: images               !! behind the own slots
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
       type(margin_t), allocatable :: margins(:)      !! (n_blocks)
@@ -76,36 +82,47 @@ contains
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: span         !! time that the steps to come are expected to take
       logical, intent(out) :: scattered    !! some particle is too far away to go on
-      integer :: i, n_old
-      real(dp) :: outwards(4), reach(4)
+      integer, allocatable :: number(:)
+      integer :: n_points
+      real(dp) :: outwards(4), reach(4), extremes(4)
 
       self%tau = span/2
       self%jumped = .false.
-      n_old = p%n_own
-      !$omp parallel do default(none) shared(self, p, n_old)
-      do i = 1, n_old
-         p%stage(1)%x(i) = p%next%x(i) + self%tau*p%next%u(i)
-         p%stage(1)%y(i) = p%next%y(i) + self%tau*p%next%v(i)
-      end do
-      !$omp end parallel do
+      self%image_slack = max(self%slack, image_slack*kernel%support)
+      ! Room for steps half as long again as expected.
+      self%image_travel = 2*self%tau
+      call predict(self%tau, 1, p%n_own, p)
       self%strips%width = kernel%support/2
       self%strips%bin_height = dx/4
       self%strips%origin = box%at(left_wall)
-      call sort_into_strips(self%strips, n_old, p%id(1:n_old), p%stage(1)%x(1:n_old), p%stage(1)%y(1:n_old), 1, .true.)
-      scattered = self%strips%n < 0
+      if (n_processes() == 1) then
+         call sort_into_strips(self%strips, p%n_own, p%id(1:p%n_own), p%stage(1)%x(1:p%n_own), p%stage(1)%y(1:p%n_own), 1, .true.)
+      else
+         call migrate(self%division, self%sorts, self%strips, p, box, kernel%support + 2*self%image_slack, self%image_travel, &
+                      n_points, number, scattered)
+         if (scattered) return
+         call predict(self%tau, p%n_own + 1, n_points, p)
+         call sort_into_strips(self%strips, n_points, number, p%stage(1)%x(1:n_points), p%stage(1)%y(1:n_points), 1, .true.)
+      end if
+      self%sorts = self%sorts + 1
+      scattered = any_process(self%strips%n < 0)
       if (scattered) return
       call permute(self, p)
-      self%image_slack = max(self%slack, image_slack*kernel%support)
+      if (n_processes() > 1) call find_halo(self%images%halo, self%division, self%strips)
       call lay_out_blocks(self)
       call set_margins(self, p)
       self%age = 0
       self%stray = 0
       call measure_strips(self%strips, p%base)
+      associate (overall => self%strips%overall)
+         extremes = [-overall%slowest, overall%fastest]
+         call largest_of_all(4, extremes)
+         overall%slowest = -extremes(1:2)
+         overall%fastest = extremes(3:4)
+      end associate
       self%images%strips%width = self%strips%width
       self%images%strips%bin_height = dx   ! images stand in narrow stripes far apart, and many bins are empty
       self%images%strips%origin = self%strips%origin
-      ! Room for steps half as long again as expected.
-      self%image_travel = 2*self%tau
       associate (overall => self%strips%overall)
          ! Others may be beyond a side by what they move outwards, as the side sees it.
          outwards = [overall%slowest(1), overall%fastest(1), overall%slowest(2), overall%fastest(2)] - box%normal_velocity()
@@ -115,11 +132,26 @@ contains
          reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       end associate
       call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
-      scattered = self%images%strips%n < 0
+      scattered = any_process(self%images%strips%n < 0)
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles
+
+   ! Where particles will be in the middle of the steps to come.
+   subroutine predict(tau, first, last, p)
+      real(dp), intent(in) :: tau
+      integer, intent(in) :: first, last      !! slots of `next`
+      type(particles_t), intent(inout) :: p   !! stage(1) gets the positions
+      integer :: i
+
+      !$omp parallel do default(none) shared(tau, first, last, p)
+      do i = first, last
+         p%stage(1)%x(i) = p%next%x(i) + tau*p%next%u(i)
+         p%stage(1)%y(i) = p%next%y(i) + tau*p%next%v(i)
+      end do
+      !$omp end parallel do
+   end subroutine predict
 
    !> Takes the state of `next` into `base` as it is, with the order and the lists that there are.
    subroutine keep_order(self, p, box, step)
@@ -146,10 +178,11 @@ contains
 
       call reserve_slots(p, self%strips%n_slots)
       if (p%features%dissipation) call permute_dissipated(self, p)
-      p%n_own = self%strips%n_slots
-      p%n_slots = p%n_own
+      p%n_own = self%strips%n_own_slots
+      p%n_held = self%strips%n_slots
+      p%n_slots = p%n_held
       !$omp parallel do default(none) shared(self, p) private(old)
-      do i = 1, p%n_own
+      do i = 1, p%n_held
          old = self%strips%point_of(i)
          if (old > 0) then
             p%base%x(i) = p%next%x(old)
@@ -203,33 +236,41 @@ contains
    ! A block lies in one strip, so that it does not depend on what other strips there are; those of a strip are about as long.
    subroutine lay_out_blocks(self)
       type(neighbours_t), intent(inout) :: self
-      integer :: b, k, first, last
+      integer :: b, k, n_own, strip, first, last, n
 
-      associate (strips => self%strips, groups => (self%strips%slot_start(2:self%strips%n + 1) &
-                                                   - self%strips%slot_start(:self%strips%n))/group_slots)
-         self%first_block = [1, (0, k=1, strips%n)]
-         do k = 1, strips%n
-            self%first_block(k + 1) = self%first_block(k) + (groups(k) + block_groups - 1)/block_groups
-         end do
-         self%n_blocks = self%first_block(strips%n + 1) - 1
-         if (allocated(self%blocks)) then
-            if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
-         end if
-         if (.not. allocated(self%blocks)) &
-            allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
-         do k = 1, strips%n
-            last = 0
-            associate (b0 => self%first_block(k) - 1, n => self%first_block(k + 1) - self%first_block(k))
-               do b = 1, n
-                  first = last
-                  last = b*groups(k)/n
-                  self%blocks(b0 + b)%before = strips%slot_start(k) - 1 + first*group_slots
-                  self%blocks(b0 + b)%n_clusters = (last - first)*group_slots/nl
-               end do
+      n_own = self%strips%own(2) - self%strips%own(1) + 1
+      self%first_block = [1, (0, k=1, n_own)]
+      do k = 1, n_own
+         self%first_block(k + 1) = self%first_block(k) + (groups_in(self%strips, self%strips%own(1) + k - 1) + block_groups - 1) &
+                                   /block_groups
+      end do
+      self%n_blocks = self%first_block(n_own + 1) - 1
+      if (allocated(self%blocks)) then
+         if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
+      end if
+      if (.not. allocated(self%blocks)) &
+         allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
+      do k = 1, n_own
+         strip = self%strips%own(1) + k - 1
+         n = self%first_block(k + 1) - self%first_block(k)
+         last = 0
+         do b = 1, n
+            first = last
+            last = b*groups_in(self%strips, strip)/n
+            associate (block => self%blocks(self%first_block(k) + b - 1))
+               block%before = self%strips%first(strip) - 1 + first*group_slots
+               block%n_clusters = (last - first)*group_slots/nl
             end associate
          end do
-      end associate
+      end do
    end subroutine lay_out_blocks
+
+   pure integer function groups_in(strips, strip) result(n)
+      type(strips_t), intent(in) :: strips
+      integer, intent(in) :: strip
+
+      n = (strips%last(strip) - strips%first(strip) + 1)/group_slots
+   end function groups_in
 
    ! The slack of each block, for the accelerations that its particles had.
    subroutine set_margins(self, p)
@@ -263,9 +304,9 @@ contains
       !$omp schedule(dynamic, max(1, strips%n/256))
       do k = 1, strips%n
          strips%extent(k) = extent_t()
-         first = strips%slot_start(k)
-         last = strips%slot_start(k + 1) - 1
-         do while (strips%point_of(last - strips%slot_start(1) + 1) == 0)
+         first = strips%first(k)
+         last = strips%last(k)
+         do while (strips%point_of(last - strips%slots_before) == 0)
             last = last - 1
          end do
          associate (extent => strips%extent(k))
@@ -322,7 +363,7 @@ contains
       if (strips%n == 0) return
       !$omp parallel do default(none) shared(strips, slack) schedule(dynamic, max(1, strips%n/256))
       do k = 1, strips%n
-         strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)))
+         strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%first(k):strips%last(k))))
       end do
       !$omp end parallel do
       strips%overall%slack = maxval(strips%extent(:strips%n)%slack)

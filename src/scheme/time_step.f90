@@ -419,9 +419,9 @@ contains
       counts = [sum(int(blocks%crossings, i8)), sum(int(blocks%singular, i8))]
       call sums_of_all(size(counts), counts)
       if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
-      allocate (powers(5, near%strips%n))
-      !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, near%strips%n/256))
-      do k = 1, near%strips%n
+      allocate (powers(5, size(near%first_block) - 1))
+      !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, size(near%first_block)/256))
+      do k = 1, size(powers, 2)
          powers(:, k) = strip_powers(near, k, blocks)
       end do
       !$omp end parallel do
@@ -442,7 +442,7 @@ contains
    ! The works and the wall power of a strip, group by group.
    pure function strip_powers(near, strip, blocks) result(powers)
       type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: strip
+      integer, intent(in) :: strip   !! counted from the first own one
       type(block_t), intent(in) :: blocks(:)
       real(dp) :: powers(5)
       integer :: b, g

@@ -1,0 +1,71 @@
+!> What the processes of a run tell each other. This source is for a run of one process: nobody is asked.
+module communication
+   use kinds, only: dp, i8
+   implicit none
+   private
+
+   public :: start_processes, end_processes, n_processes, this_process, any_process, largest_of_all, sums_of_all, exchange_counts, &
+      exchange
+
+contains
+
+   !> To be called before all others.
+   subroutine start_processes()
+   end subroutine start_processes
+
+   !> To be called when all is written.
+   subroutine end_processes()
+   end subroutine end_processes
+
+   !> How many there are.
+   pure integer function n_processes()
+      n_processes = 1
+   end function n_processes
+
+   !> Which of them this is, from 0.
+   pure integer function this_process()
+      this_process = 0
+   end function this_process
+
+   !> Whether a statement holds in some process.
+   pure logical function any_process(statement)
+      logical, intent(in) :: statement
+
+      any_process = statement
+   end function any_process
+
+   !> Each value becomes its largest over all processes.
+   pure subroutine largest_of_all(n, values)
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: values(n)
+
+      values = values
+   end subroutine largest_of_all
+
+   !> Each number becomes its sum over all processes.
+   pure subroutine sums_of_all(n, numbers)
+      integer, intent(in) :: n
+      integer(i8), intent(inout) :: numbers(n)
+
+      numbers = numbers
+   end subroutine sums_of_all
+
+   !> Tells each process a number.
+   pure subroutine exchange_counts(outgoing, incoming)
+      integer, intent(in) :: outgoing(0:)    !! (processes) for each
+      integer, intent(out) :: incoming(0:)   !! (processes) of each
+
+      incoming = outgoing
+   end subroutine exchange_counts
+
+   !> Sends to each process the numbers before and including `out_end` of it, from one after that of the process before it.
+   pure subroutine exchange(outgoing, out_end, incoming, in_end)
+      real(dp), contiguous, intent(in) :: outgoing(:)
+      integer, intent(in) :: out_end(-1:)   !! (-1:processes-1)
+      real(dp), contiguous, intent(inout) :: incoming(:)
+      integer, intent(in) :: in_end(-1:)
+
+      incoming(in_end(-1) + 1:in_end(0)) = outgoing(out_end(-1) + 1:out_end(0))
+   end subroutine exchange
+
+end module communication
