@@ -57,6 +57,7 @@ module neighbours
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
       type(margin_t), allocatable :: margins(:)      !! (n_blocks)
    contains
+      procedure :: computes
       procedure :: bytes => neighbours_bytes
    end type neighbours_t
 
@@ -70,6 +71,17 @@ contains
       if (allocated(self%blocks)) bytes = bytes + sum(self%blocks%bytes()) &
          + size(self%margins, kind=i8)*storage_size(self%margins)/8
    end function neighbours_bytes
+
+   !> Whether this process has all that is near a line across the box.
+   elemental logical function computes(self, x)
+      class(neighbours_t), intent(in) :: self
+      real(dp), intent(in) :: x   !! of the line
+
+      associate (strips => self%strips)
+         computes = floor((x - strips%origin)/strips%width, i8) >= strips%own_places(1) &
+                    .and. floor((x - strips%origin)/strips%width, i8) <= strips%own_places(2)
+      end associate
+   end function computes
 
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
