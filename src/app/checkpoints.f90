@@ -2,6 +2,7 @@
 module checkpoints
    use cadence, only: cadence_t
    use checkpoint_file, only: checkpoint_file_t
+   use communication, only: any_process, is_first
    use errors, only: failure
    use file_system, only: longest_path, path_exists, secure_path
    use kinds, only: dp, i8
@@ -73,6 +74,7 @@ contains
 
       self%due = self%due .or. self%when%is_due(step, time, time_before)
       if (.not. self%due) self%due = self%when%is_due_by_clock(wall_seconds() - self%last)
+      self%due = any_process(self%due)
    end subroutine watch
 
    !> Whether one is to be written where the particles are about to be sorted. At the end of a run this comes shortly before it,
@@ -123,7 +125,7 @@ contains
       call state%archive(file)
       call file%finish(problem)
       if (problem%raised()) return
-      call secure_path(directory%path, ignored)   ! some file systems cannot
+      if (is_first()) call secure_path(directory%path, ignored)   ! some file systems cannot
       self%turn = 3 - self%turn
       self%number = self%number + 1
       self%due = .false.

@@ -2,7 +2,7 @@
 program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
-   use communication, only: end_processes, start_processes
+   use communication, only: is_first, start_processes
    use command_line, only: command_line_t, parse_command_line, write_help
    use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
@@ -52,12 +52,12 @@ program main
    else
       call run_scene(options, problem)
    end if
-   call end_processes()
    call end_program(problem)
 
 contains
 
    subroutine write_version()
+      if (.not. is_first()) return
       write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'
       write (output_unit, '(a)') compiler_version()
       write (output_unit, '(a)') compiler_options()
@@ -76,6 +76,7 @@ contains
       integer :: k
 
       call load_scene(options%scene, content, problem)
+      call problem%tell()
       if (problem%raised()) return
       call read_settings_text(content, options%scene, options%overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return

@@ -5,7 +5,7 @@ module recorder
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use columns, only: columns_t
-   use communication, only: largest_of_all
+   use communication, only: is_first, largest_of_all
    use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
@@ -16,6 +16,7 @@ module recorder
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
+   use number_order, only: find_order, number_order_t
    use particles, only: particles_t
    use probes, only: measure_sensors, new_sensor, sensor_t
    use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name
@@ -287,19 +288,16 @@ contains
       type(failure), intent(inout) :: problem
       type(snapshot_field), allocatable :: fields(:)
       character(:), allocatable :: path
-      integer, allocatable :: slot(:), id(:)
+      type(number_order_t) :: order
       integer :: i
 
-      allocate (slot(p%n))
-      do i = 1, p%n_own
-         if (p%id(i) > 0) slot(p%id(i)) = i
-      end do
-      id = [(i, i=1, p%n)]
-      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, slot, fields)
+      call find_order(p, order)
+      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, order, fields)
       self%head%time = run%time
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
-      call write_snapshot(path, self%head, id, p%base%x(slot), p%base%y(slot), fields, scene%output%precision, problem)
+      call write_snapshot(path, self%head, [(i, i=order%first, order%last)], order%sorted(p%base%x), order%sorted(p%base%y), &
+                          fields, scene%output%precision, problem)
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
@@ -314,7 +312,7 @@ contains
 
       ! One that the user has taken away is no failure.
       do k = self%secured, self%series%count() - 1
-         call secure_path(directory%snapshot_path(k), ignored)
+         if (is_first()) call secure_path(directory%snapshot_path(k), ignored)
       end do
       self%secured = self%series%count()
       call self%energy_table%secure(problem)

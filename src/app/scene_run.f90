@@ -1,7 +1,6 @@
 !> A scene from its settings to a directory with its results.
 module scene_run
    use command_line, only: command_line_t
-   use communication, only: n_processes, this_process
    use errors, only: failure
    use key_writer, only: complete_input
    use linear_stability, only: margins_t
@@ -38,8 +37,7 @@ contains
       logical :: began
       integer :: k
 
-      call directory%prepare(output_directory(options)//merge('.'//achar(48 + this_process()), '  ', n_processes() > 1), &
-                             options%overwrite, problem)
+      call directory%prepare(output_directory(options), options%overwrite, problem)
       if (problem%raised()) return
       call log%open(options%quiet)
       call stop%begin(scene%time%max_wall_time, directory)

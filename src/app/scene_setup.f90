@@ -2,14 +2,15 @@
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
-   use communication, only: n_processes, this_process
+   use communication, only: this_process
    use equation_of_state, only: excess_density
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
    use kernel, only: k_2d, new_kernel
-   use kinds, only: dp, i8
+   use kinds, only: dp
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
+   use number_order, only: process_of
    use particles, only: allocate_particles, features_t, particles_t
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
@@ -144,7 +145,7 @@ contains
             do i = 1, size(sites%x)
                number = number + 1
                ! Each process begins with a part of the numbers.
-               if (int((number - 1_i8)*n_processes()/n) /= this_process()) cycle
+               if (process_of(number, n) /= this_process()) cycle
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]
                velocity = body%velocity

@@ -5,6 +5,7 @@ module simulation
    use budget, only: begin_balance_anew, works_t
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
+   use communication, only: is_first
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_files, exit_input, exit_numerics, exit_stopped, failure
    use file_system, only: delete_file, file_bytes, path_exists, write_whole_file
@@ -199,19 +200,23 @@ contains
       if (here .and. .not. problem%raised()) call directory%look_for_foreign(problem)
       if (.not. (here .or. problem%raised())) call directory%clear(problem)
       if (.not. problem%raised() .and. (beginning%changed .or. beginning%forked)) call saving%write(state, directory, problem)
-      if (.not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
+      if (is_first() .and. .not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
+      call problem%tell()
       if (.not. problem%raised()) call state%recorder%open(scene, directory, only_check=.false., problem=problem)
       if (.not. problem%raised()) call log%open_file(directory%file(log_name), here, problem)
       if (problem%raised() .or. .not. here) return
-      call say_which_snapshots_lack(state%recorder%series%count(), directory, log)
-      call delete_file(directory%file(summary_name), ignored)
+      if (is_first()) call say_which_snapshots_lack(state%recorder%series%count(), directory, log)
+      if (is_first()) call delete_file(directory%file(summary_name), ignored)
       call directory%delete_later_snapshots(state%recorder%series%count(), problem)
       if (problem%raised()) return
-      if (state%recorder%series%count() > 0) then
+      if (.not. is_first()) then
+         continue
+      else if (state%recorder%series%count() > 0) then
          call state%recorder%series%write(directory%file(series_name), problem)
       else if (path_exists(directory%file(series_name))) then
          call delete_file(directory%file(series_name), ignored)
       end if
+      call problem%tell()
    end subroutine open_files
 
    subroutine say_which_snapshots_lack(n, directory, log)

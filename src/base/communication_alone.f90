@@ -1,11 +1,12 @@
 !> What the processes of a run tell each other. This source is for a run of one process: nobody is asked.
 module communication
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: dp, i8
    implicit none
    private
 
-   public :: start_processes, end_processes, n_processes, this_process, any_process, largest_of_all, sums_of_all, exchange_counts, &
-      exchange
+   public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
+      exchange_counts, exchange, tell_all, to_first, from_process
 
 contains
 
@@ -26,6 +27,11 @@ contains
    pure integer function this_process()
       this_process = 0
    end function this_process
+
+   !> Whether this is the process that writes files and talks to the user.
+   pure logical function is_first()
+      is_first = .true.
+   end function is_first
 
    !> Whether a statement holds in some process.
    pure logical function any_process(statement)
@@ -67,5 +73,28 @@ contains
 
       incoming(in_end(-1) + 1:in_end(0)) = outgoing(out_end(-1) + 1:out_end(0))
    end subroutine exchange
+
+   !> All get the text of one of them.
+   pure subroutine tell_all(text, process)
+      character(:), allocatable, intent(inout) :: text
+      integer, intent(in) :: process
+
+      if (process == 0) text = text
+   end subroutine tell_all
+
+   !> Sends bytes to the first process, which takes them with `from_process`.
+   pure subroutine to_first(bytes)
+      integer(int8), contiguous, intent(in) :: bytes(:)
+
+      if (size(bytes) > 0) return
+   end subroutine to_first
+
+   !> Takes bytes that another process sends to the first one.
+   pure subroutine from_process(process, bytes)
+      integer, intent(in) :: process
+      integer(int8), contiguous, intent(inout) :: bytes(:)
+
+      if (process > 0) bytes = 0
+   end subroutine from_process
 
 end module communication

@@ -2,15 +2,17 @@
 !!
 !! Buffers are contiguous and stay where they are until messages have arrived: gfortran's MPI modules take no others.
 module communication
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: dp, i8
-   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
+   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_recv, mpi_send, mpi_status_ignore, &
+      mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
       mpi_finalize, mpi_in_place, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_lor, mpi_logical, mpi_max, &
       mpi_request, mpi_statuses_ignore, mpi_sum, mpi_thread_funneled, mpi_waitall
    implicit none
    private
 
-   public :: start_processes, end_processes, n_processes, this_process, any_process, largest_of_all, sums_of_all, exchange_counts, &
-      exchange
+   public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
+      exchange_counts, exchange, tell_all, to_first, from_process
 
 contains
 
@@ -35,6 +37,11 @@ contains
    integer function this_process()
       call mpi_comm_rank(mpi_comm_world, this_process)
    end function this_process
+
+   !> Whether this is the process that writes files and talks to the user.
+   logical function is_first()
+      is_first = this_process() == 0
+   end function is_first
 
    !> Whether a statement holds in some process.
    logical function any_process(statement)
@@ -107,5 +114,35 @@ contains
       end subroutine send
 
    end subroutine exchange
+
+   !> All get the text of one of them.
+   subroutine tell_all(text, process)
+      character(:), allocatable, intent(inout) :: text
+      integer, intent(in) :: process
+      character(:), allocatable :: buffer
+      integer :: length
+
+      length = len(text)
+      call mpi_bcast(length, 1, mpi_integer, process, mpi_comm_world)
+      allocate (character(length) :: buffer)
+      if (this_process() == process) buffer = text
+      call mpi_bcast(buffer, length, mpi_character, process, mpi_comm_world)
+      call move_alloc(buffer, text)
+   end subroutine tell_all
+
+   !> Sends bytes to the first process, which takes them with `from_process`.
+   subroutine to_first(bytes)
+      integer(int8), contiguous, intent(in) :: bytes(:)
+
+      call mpi_send(bytes, size(bytes), mpi_byte, 0, 1, mpi_comm_world)
+   end subroutine to_first
+
+   !> Takes bytes that another process sends to the first one.
+   subroutine from_process(process, bytes)
+      integer, intent(in) :: process
+      integer(int8), contiguous, intent(inout) :: bytes(:)
+
+      call mpi_recv(bytes, size(bytes), mpi_byte, process, 1, mpi_comm_world, mpi_status_ignore)
+   end subroutine from_process
 
 end module communication

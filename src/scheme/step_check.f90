@@ -1,6 +1,6 @@
 !> Whether a run can go on from the result of a step.
 module step_check
-   use errors, only: exit_numerics, failure
+   use errors, only: exit_numerics, failure, text_of_largest
    use box, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
@@ -25,21 +25,40 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      associate (own => p%id(1:p%n_own) > 0, next => p%next, left => model%box%at(left_wall))
+      character(:), allocatable :: who
+
+      associate (n => p%n_own, next => p%next, left => model%box%at(left_wall))
          if (run%scattered) then
+            call find_largest(p, abs(next%x(1:n) - left), who)
             call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long after step ' &
-                               //moment(run)//': '//particle(p, maxloc(abs(next%x(1:p%n_own) - left), 1, own)) &
-                               //'; close the open side it left by')
+                               //moment(run)//': '//who//'; close the open side it left by')
             return
          end if
-         if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+         if (run%lost) then
+            if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+            call problem%tell()
+         end if
          ! Written so that NaN fails too.
-         if (.not. run%dt > least_step_share*model%longest_step() .and. run%time < end_time) &
-            call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
-                               //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)) &
-                               //'; a smaller limit of &model may help')
+         if (run%dt > least_step_share*model%longest_step() .or. .not. run%time < end_time) return
+         call find_largest(p, next%u(1:n)**2 + next%v(1:n)**2, who)
+         call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
+                            //'; fastest: '//who//'; a smaller limit of &model may help')
       end associate
    end subroutine check_step
+
+   ! Words on the particle that has most of something.
+   subroutine find_largest(p, values, words)
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: values(:)   !! (n_own)
+      character(:), allocatable, intent(out) :: words
+      integer :: i
+
+      words = ''
+      i = maxloc(values, 1, p%id(1:p%n_own) > 0)
+      if (i > 0) words = particle(p, i)
+      if (i > 0) call text_of_largest(values(i), words)
+      if (i == 0) call text_of_largest(-huge(1.0_dp), words)
+   end subroutine find_largest
 
    subroutine explain_loss(model, p, run, problem)
       type(model_t), intent(in) :: model

@@ -409,12 +409,13 @@ contains
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
       real(dp), allocatable :: powers(:, :)
-      real(dp) :: totals(5), moving_walls, largest(5)
+      real(dp) :: totals(5), moving_walls, largest(6)
       integer(i8) :: counts(2)
       integer :: k
 
       largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), &
-                             maxval(blocks%largest_pi), maxval(near%margins(:near%n_blocks)%next_stray)])
+                             maxval(blocks%largest_pi), maxval(near%margins(:near%n_blocks)%next_stray), &
+                             merge(1.0_dp, 0.0_dp, any(blocks%lost_slot > 0))])
       call largest_of_all(size(largest), largest)
       counts = [sum(int(blocks%crossings, i8)), sum(int(blocks%singular, i8))]
       call sums_of_all(size(counts), counts)
@@ -435,6 +436,7 @@ contains
       run%singular = run%singular + counts(2)
       call take_extremes(model, largest(1), largest(2), largest(3), run)
       run%lost_slot = max(0, maxval(blocks%lost_slot))
+      run%lost = largest(6) > 0
       near%next_stray = largest(5)
       near%lasts = .not. any_process(.not. lists_hold(near, run%dt))
    end subroutine collect
