@@ -21,6 +21,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use stop_signals, only: stop_signals_t
    use standard_output, only: check_screen, errors_for_signals, print_text
    use text, only: to_text
    use threads, only: limit_threads
@@ -28,10 +29,14 @@ program main
 
    type(command_line_t) :: options
    type(failure) :: problem
+   type(stop_signals_t) :: signals
    character(:), allocatable :: arguments(:)
 
    call start_process()
+   ! Threads that come with MPI leave signals to ours.
+   call signals%hold()
    call start_processes()
+   call signals%release()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
