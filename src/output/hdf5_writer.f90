@@ -443,11 +443,11 @@ contains
             first = max(start, before(process))
             last = min(start + here(size(here)), before(process + 1))
             if (last <= first) cycle
-            associate (part => chunk((first - start)*row_bytes + 1:(last - start)*row_bytes))
+            associate (from => (first - start)*row_bytes + 1, to => (last - start)*row_bytes)
                if (process == 0) then
-                  part = mine(first*row_bytes + 1:last*row_bytes)
+                  chunk(from:to) = mine(first*row_bytes + 1:last*row_bytes)
                else
-                  call from_process(process, part)
+                  call from_process(process, chunk(from:to))
                end if
             end associate
          end do
