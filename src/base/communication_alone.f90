@@ -6,7 +6,16 @@ module communication
    private
 
    public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
-      exchange_counts, exchange, tell_all, to_first, from_process
+      exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+
+   !> Numbers on their way to and from the others.
+   type :: exchange_t
+      real(dp), allocatable :: outgoing(:), incoming(:)   !! those of a process behind those of the one before it
+   contains
+      procedure :: make_room
+      procedure :: start
+      procedure :: finish
+   end type exchange_t
 
 contains
 
@@ -73,6 +82,30 @@ contains
 
       incoming(in_end(-1) + 1:in_end(0)) = outgoing(out_end(-1) + 1:out_end(0))
    end subroutine exchange
+
+   !> Room for so many values of each thing that goes to and comes from the others.
+   pure subroutine make_room(self, values, out_end, in_end)
+      class(exchange_t), intent(inout) :: self
+      integer, intent(in) :: values
+      integer, intent(in) :: out_end(-1:), in_end(-1:)   !! (-1:processes-1) things until those of a process
+
+      if (allocated(self%outgoing)) deallocate (self%outgoing, self%incoming)
+      allocate (self%outgoing(values*out_end(0)), self%incoming(values*in_end(0)))
+   end subroutine make_room
+
+   !> Sends what `outgoing` holds.
+   pure subroutine start(self)
+      class(exchange_t), intent(inout) :: self
+
+      self%incoming = self%outgoing
+   end subroutine start
+
+   !> Waits until `incoming` is there, and `outgoing` may change again.
+   pure subroutine finish(self)
+      class(exchange_t), intent(inout) :: self
+
+      if (size(self%incoming) == 0) return
+   end subroutine finish
 
    !> All get the text of one of them.
    pure subroutine tell_all(text, process)

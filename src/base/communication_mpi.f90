@@ -12,7 +12,19 @@ module communication
    private
 
    public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
-      exchange_counts, exchange, tell_all, to_first, from_process
+      exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+
+   !> Numbers on their way to and from the others.
+   type :: exchange_t
+      real(dp), allocatable :: outgoing(:), incoming(:)   !! those of a process behind those of the one before it
+      integer, allocatable, private :: out_end(:), in_end(:)   ! (-1:processes-1)
+      type(mpi_request), allocatable, private :: requests(:)
+      integer, private :: n = 0
+   contains
+      procedure :: make_room
+      procedure :: start
+      procedure :: finish
+   end type exchange_t
 
 contains
 
@@ -77,43 +89,82 @@ contains
 
    !> Sends to each process the numbers before and including `out_end` of it, from one after that of the process before it.
    subroutine exchange(outgoing, out_end, incoming, in_end)
-      real(dp), contiguous, intent(in), asynchronous :: outgoing(:)
+      real(dp), contiguous, intent(in) :: outgoing(:)
       integer, intent(in) :: out_end(-1:)   !! (-1:processes-1)
-      real(dp), contiguous, intent(inout), asynchronous :: incoming(:)
+      real(dp), contiguous, intent(inout) :: incoming(:)
       integer, intent(in) :: in_end(-1:)
-      type(mpi_request) :: requests(2*(size(out_end) - 1))
-      integer :: n, process
+      type(exchange_t) :: messages
 
-      n = 0
-      do process = 0, size(in_end) - 2
-         call receive(in_end(process) - in_end(process - 1), incoming(in_end(process - 1) + 1:in_end(process)))
-      end do
-      do process = 0, size(out_end) - 2
-         call send(out_end(process) - out_end(process - 1), outgoing(out_end(process - 1) + 1:out_end(process)))
-      end do
-      call mpi_waitall(n, requests, mpi_statuses_ignore)
-
-   contains
-
-      subroutine receive(length, buffer)
-         integer, intent(in) :: length
-         real(dp), intent(inout), asynchronous :: buffer(length)
-
-         if (length == 0) return
-         n = n + 1
-         call mpi_irecv(buffer, length, mpi_double_precision, process, 0, mpi_comm_world, requests(n))
-      end subroutine receive
-
-      subroutine send(length, buffer)
-         integer, intent(in) :: length
-         real(dp), intent(in), asynchronous :: buffer(length)
-
-         if (length == 0) return
-         n = n + 1
-         call mpi_isend(buffer, length, mpi_double_precision, process, 0, mpi_comm_world, requests(n))
-      end subroutine send
-
+      call messages%make_room(1, out_end, in_end)
+      messages%outgoing = outgoing
+      call messages%start()
+      call messages%finish()
+      incoming = messages%incoming
    end subroutine exchange
+
+   !> Room for so many values of each thing that goes to and comes from the others.
+   subroutine make_room(self, values, out_end, in_end)
+      class(exchange_t), intent(inout) :: self
+      integer, intent(in) :: values
+      integer, intent(in) :: out_end(-1:), in_end(-1:)   !! (-1:processes-1) things until those of a process
+      integer :: n
+
+      n = n_processes()
+      if (.not. allocated(self%requests)) allocate (self%requests(2*n), self%out_end(-1:n - 1), self%in_end(-1:n - 1))
+      self%out_end = values*out_end
+      self%in_end = values*in_end
+      if (allocated(self%outgoing)) then
+         if (size(self%outgoing) /= self%out_end(n - 1)) deallocate (self%outgoing)
+      end if
+      if (allocated(self%incoming)) then
+         if (size(self%incoming) /= self%in_end(n - 1)) deallocate (self%incoming)
+      end if
+      if (.not. allocated(self%outgoing)) allocate (self%outgoing(self%out_end(n - 1)))
+      if (.not. allocated(self%incoming)) allocate (self%incoming(self%in_end(n - 1)))
+   end subroutine make_room
+
+   !> Sends what `outgoing` holds.
+   subroutine start(self)
+      class(exchange_t), intent(inout), asynchronous :: self
+      integer :: process
+
+      self%n = 0
+      do process = 0, ubound(self%in_end, 1)
+         associate (first => self%in_end(process - 1) + 1, last => self%in_end(process))
+            if (last >= first) call receive(self, process, last - first + 1, self%incoming(first:last))
+         end associate
+      end do
+      do process = 0, ubound(self%out_end, 1)
+         associate (first => self%out_end(process - 1) + 1, last => self%out_end(process))
+            if (last >= first) call send(self, process, last - first + 1, self%outgoing(first:last))
+         end associate
+      end do
+   end subroutine start
+
+   subroutine receive(self, process, length, buffer)
+      class(exchange_t), intent(inout) :: self
+      integer, intent(in) :: process, length
+      real(dp), intent(inout), asynchronous :: buffer(length)
+
+      self%n = self%n + 1
+      call mpi_irecv(buffer, length, mpi_double_precision, process, 0, mpi_comm_world, self%requests(self%n))
+   end subroutine receive
+
+   subroutine send(self, process, length, buffer)
+      class(exchange_t), intent(inout) :: self
+      integer, intent(in) :: process, length
+      real(dp), intent(in), asynchronous :: buffer(length)
+
+      self%n = self%n + 1
+      call mpi_isend(buffer, length, mpi_double_precision, process, 0, mpi_comm_world, self%requests(self%n))
+   end subroutine send
+
+   !> Waits until `incoming` is there, and `outgoing` may change again.
+   subroutine finish(self)
+      class(exchange_t), intent(inout), asynchronous :: self
+
+      call mpi_waitall(self%n, self%requests, mpi_statuses_ignore)
+   end subroutine finish
 
    !> All get the text of one of them.
    subroutine tell_all(text, process)

@@ -1,14 +1,16 @@
 !> Copies of particles that other processes compute: the same slots in the same order as there, filled whenever they change.
+!!
+!! Between `start` and `finish` messages travel, and what needs no copy can be computed.
 module halo
-   use communication, only: exchange, n_processes, this_process
+   use communication, only: exchange_t, n_processes, this_process
    use division, only: division_t, needed_by, owner
    use kinds, only: dp
-   use particles, only: state_t
+   use particles, only: particles_t, state_t
    use strips, only: strips_t
    implicit none
    private
 
-   public :: halo_t, find_halo, fill_copies
+   public :: halo_t, find_halo, start_copies, finish_copies
 
    !> Slots in a row.
    type :: segment_t
@@ -18,13 +20,18 @@ module halo
    !> What goes to and comes from each process, the slots of one behind those of the other.
    type :: halo_t
       logical :: exists = .false.
-      integer, allocatable :: out_end(:), in_end(:)   !! (-1:processes-1) slots until that of a process
-      type(segment_t), allocatable :: outgoing(:), incoming(:)
+      integer, allocatable, private :: out_end(:), in_end(:)   !! (-1:processes-1) slots until that of a process
+      type(segment_t), allocatable, private :: outgoing(:), incoming(:)
+      type(exchange_t), private :: exchange                    !! on its way
    end type halo_t
 
-   interface fill_copies
-      procedure fill_state, fill_field
-   end interface fill_copies
+   interface start_copies
+      procedure start_state, start_gradients, start_field
+   end interface start_copies
+
+   interface finish_copies
+      procedure finish_state, finish_gradients, finish_field
+   end interface finish_copies
 
 contains
 
@@ -38,10 +45,9 @@ contains
       n = n_processes()
       self%exists = n > 1
       if (.not. self%exists) return
-      self%out_end = [(0, k=-1, n - 1)]
-      self%in_end = self%out_end
-      deallocate (self%out_end, self%in_end)
-      allocate (self%out_end(-1:n - 1), self%in_end(-1:n - 1), source=0)
+      if (.not. allocated(self%out_end)) allocate (self%out_end(-1:n - 1), self%in_end(-1:n - 1))
+      self%out_end(-1) = 0
+      self%in_end(-1) = 0
       self%outgoing = [segment_t ::]
       self%incoming = [segment_t ::]
       do process = 0, n - 1
@@ -70,80 +76,138 @@ contains
    end subroutine append
 
    ! All that a state has.
-   subroutine fill_state(self, state)
-      type(halo_t), intent(in) :: self
-      type(state_t), intent(inout) :: state
-      real(dp), allocatable :: outgoing(:), incoming(:)
-      integer :: n
+   subroutine start_state(self, state)
+      type(halo_t), intent(inout) :: self
+      type(state_t), intent(in) :: state
+      integer :: i, k, n
 
       if (.not. self%exists) return
-      n = ubound(self%out_end, 1)
-      allocate (outgoing(6*self%out_end(n)), incoming(6*self%in_end(n)))
-      call pack_slots(self%outgoing, state, outgoing)
-      call exchange(outgoing, 6*self%out_end, incoming, 6*self%in_end)
-      call unpack_slots(self%incoming, incoming, state)
-   end subroutine fill_state
-
-   subroutine pack_slots(segments, state, buffer)
-      type(segment_t), intent(in) :: segments(:)
-      type(state_t), intent(in) :: state
-      real(dp), intent(inout) :: buffer(:)
-      integer :: i, k, n
-
+      call self%exchange%make_room(6, self%out_end, self%in_end)
       n = 0
-      do k = 1, size(segments)
-         do i = segments(k)%first, segments(k)%last
-            buffer(n + 1:n + 6) = [state%x(i), state%y(i), state%u(i), state%v(i), state%s(i), state%volume(i)]
-            n = n + 6
+      associate (buffer => self%exchange%outgoing)
+         do k = 1, size(self%outgoing)
+            do i = self%outgoing(k)%first, self%outgoing(k)%last
+               buffer(n + 1:n + 6) = [state%x(i), state%y(i), state%u(i), state%v(i), state%s(i), state%volume(i)]
+               n = n + 6
+            end do
          end do
-      end do
-   end subroutine pack_slots
+      end associate
+      call self%exchange%start()
+   end subroutine start_state
 
-   subroutine unpack_slots(segments, buffer, state)
-      type(segment_t), intent(in) :: segments(:)
-      real(dp), intent(in) :: buffer(:)
+   subroutine finish_state(self, state)
+      type(halo_t), intent(inout) :: self
       type(state_t), intent(inout) :: state
       integer :: i, k, n
 
+      if (.not. self%exists) return
+      call self%exchange%finish()
       n = 0
-      do k = 1, size(segments)
-         do i = segments(k)%first, segments(k)%last
-            state%x(i) = buffer(n + 1)
-            state%y(i) = buffer(n + 2)
-            state%u(i) = buffer(n + 3)
-            state%v(i) = buffer(n + 4)
-            state%s(i) = buffer(n + 5)
-            state%volume(i) = buffer(n + 6)
-            n = n + 6
+      associate (buffer => self%exchange%incoming)
+         do k = 1, size(self%incoming)
+            do i = self%incoming(k)%first, self%incoming(k)%last
+               state%x(i) = buffer(n + 1)
+               state%y(i) = buffer(n + 2)
+               state%u(i) = buffer(n + 3)
+               state%v(i) = buffer(n + 4)
+               state%s(i) = buffer(n + 5)
+               state%volume(i) = buffer(n + 6)
+               n = n + 6
+            end do
          end do
-      end do
-   end subroutine unpack_slots
+      end associate
+   end subroutine finish_state
+
+   ! Of the first passes what the second one needs of neighbours: G, alpha_i and delta_i, as far as there are any.
+   subroutine start_gradients(self, p)
+      type(halo_t), intent(inout) :: self
+      type(particles_t), intent(in) :: p
+      integer :: i, k, n
+
+      if (.not. self%exists .or. values_of(p) == 0) return
+      call self%exchange%make_room(values_of(p), self%out_end, self%in_end)
+      n = 0
+      associate (buffer => self%exchange%outgoing)
+         do k = 1, size(self%outgoing)
+            do i = self%outgoing(k)%first, self%outgoing(k)%last
+               if (p%features%diffusion) then
+                  buffer(n + 1:n + 2) = [p%grad_x(i), p%grad_y(i)]
+                  n = n + 2
+               end if
+               if (p%features%eddy) then
+                  buffer(n + 1:n + 2) = [p%alpha(i), p%delta(i)]
+                  n = n + 2
+               end if
+            end do
+         end do
+      end associate
+      call self%exchange%start()
+   end subroutine start_gradients
+
+   subroutine finish_gradients(self, p)
+      type(halo_t), intent(inout) :: self
+      type(particles_t), intent(inout) :: p
+      integer :: i, k, n
+
+      if (.not. self%exists .or. values_of(p) == 0) return
+      call self%exchange%finish()
+      n = 0
+      associate (buffer => self%exchange%incoming)
+         do k = 1, size(self%incoming)
+            do i = self%incoming(k)%first, self%incoming(k)%last
+               if (p%features%diffusion) then
+                  p%grad_x(i) = buffer(n + 1)
+                  p%grad_y(i) = buffer(n + 2)
+                  n = n + 2
+               end if
+               if (p%features%eddy) then
+                  p%alpha(i) = buffer(n + 1)
+                  p%delta(i) = buffer(n + 2)
+                  n = n + 2
+               end if
+            end do
+         end do
+      end associate
+   end subroutine finish_gradients
+
+   pure integer function values_of(p)
+      type(particles_t), intent(in) :: p
+
+      values_of = merge(2, 0, p%features%diffusion) + merge(2, 0, p%features%eddy)
+   end function values_of
 
    ! One field.
-   subroutine fill_field(self, field)
-      type(halo_t), intent(in) :: self
-      real(dp), intent(inout) :: field(:)   !! (slots)
-      real(dp), allocatable :: outgoing(:), incoming(:)
+   subroutine start_field(self, field)
+      type(halo_t), intent(inout) :: self
+      real(dp), intent(in) :: field(:)   !! (slots)
       integer :: k, n
 
       if (.not. self%exists) return
-      n = ubound(self%out_end, 1)
-      allocate (outgoing(self%out_end(n)), incoming(self%in_end(n)))
+      call self%exchange%make_room(1, self%out_end, self%in_end)
       n = 0
       do k = 1, size(self%outgoing)
          associate (first => self%outgoing(k)%first, last => self%outgoing(k)%last)
-            outgoing(n + 1:n + last - first + 1) = field(first:last)
+            self%exchange%outgoing(n + 1:n + last - first + 1) = field(first:last)
             n = n + last - first + 1
          end associate
       end do
-      call exchange(outgoing, self%out_end, incoming, self%in_end)
+      call self%exchange%start()
+   end subroutine start_field
+
+   subroutine finish_field(self, field)
+      type(halo_t), intent(inout) :: self
+      real(dp), intent(inout) :: field(:)   !! (slots)
+      integer :: k, n
+
+      if (.not. self%exists) return
+      call self%exchange%finish()
       n = 0
       do k = 1, size(self%incoming)
          associate (first => self%incoming(k)%first, last => self%incoming(k)%last)
-            field(first:last) = incoming(n + 1:n + last - first + 1)
+            field(first:last) = self%exchange%incoming(n + 1:n + last - first + 1)
             n = n + last - first + 1
          end associate
       end do
-   end subroutine fill_field
+   end subroutine finish_field
 
 end module halo

@@ -4,15 +4,16 @@
 !! between image and source, so that a linear hydrostatic field is continued exactly (docs/equations.md).
 module images
    use box, only: box_t, open_side
-   use halo, only: fill_copies, halo_t
-   use image_laws, only: as_position, as_slip, as_velocity, as_wall_velocity, beyond, image_of, law_t, n_kinds
+   use halo, only: finish_copies, halo_t, start_copies
+   use image_laws, only: as_gradient, as_position, as_scalar, as_slip, as_velocity, as_wall_velocity, beyond, image_of, &
+      law_t, n_kinds
    use kinds, only: dp, i8
    use particles, only: particles_t, state_t, reserve_slots
    use strips, only: group_slots, strips_t, sort_into_strips
    implicit none
    private
 
-   public :: images_t, list_images, fill_ghosts, fill_slip
+   public :: images_t, list_images, fill_ghosts, begin_fill, finish_fill, fill_slip
 
    integer, parameter :: chunk = 1024   ! slots that a thread looks at at a time
 
@@ -20,7 +21,8 @@ module images
    type :: images_t
       type(halo_t) :: halo                 !! copies among the sources
       integer :: n = 0
-      integer :: n_held = 0                !! slots before them
+      integer :: n_own = 0                 !! slots of own particles,
+      integer :: n_held = 0                !! and of copies: all before them
       integer, allocatable :: source(:)    !! (n) slot of the source
       integer, allocatable :: kind(:)      !! (n) of module image_laws
       type(strips_t) :: strips             !! where to find them
@@ -30,10 +32,20 @@ module images
       procedure :: bytes => images_bytes
    end type images_t
 
-   !> Gives all images what they have of their sources.
+   !> Gives all copies and images what they have of their sources.
    interface fill_ghosts
       procedure fill_state, fill_field, fill_from
    end interface fill_ghosts
+
+   !> The same in two parts: images of copies, and these, are filled by the second one. What needs none of them can be computed
+   !! between the two.
+   interface begin_fill
+      procedure begin_state, begin_gradients
+   end interface begin_fill
+
+   interface finish_fill
+      procedure finish_state, finish_gradients
+   end interface finish_fill
 
 contains
 
@@ -52,6 +64,7 @@ contains
       integer :: b, i, k, n, n_chunks
 
       self%n = 0
+      self%n_own = p%n_own
       self%n_held = p%n_held
       n_chunks = (p%n_held + chunk - 1)/chunk
       if (any(box%kind /= open_side)) then
@@ -164,19 +177,49 @@ contains
 
    ! All that a state has.
    subroutine fill_state(self, box, state)
-      type(images_t), intent(in) :: self
+      type(images_t), intent(inout) :: self
       type(box_t), intent(in) :: box           !! at the state's time
+      type(state_t), intent(inout) :: state
+
+      call begin_state(self, box, state)
+      call finish_state(self, box, state)
+   end subroutine fill_state
+
+   subroutine begin_state(self, box, state)
+      type(images_t), intent(inout) :: self
+      type(box_t), intent(in) :: box
+      type(state_t), intent(inout) :: state
+
+      call start_copies(self%halo, state)
+      call fill_images(self, .false., box, state)
+   end subroutine begin_state
+
+   subroutine finish_state(self, box, state)
+      type(images_t), intent(inout) :: self
+      type(box_t), intent(in) :: box
+      type(state_t), intent(inout) :: state
+
+      if (.not. self%halo%exists) return
+      call finish_copies(self%halo, state)
+      call fill_images(self, .true., box, state)
+   end subroutine finish_state
+
+   ! Images of own particles, or of copies.
+   subroutine fill_images(self, of_copies, box, state)
+      type(images_t), intent(in) :: self
+      logical, intent(in) :: of_copies
+      type(box_t), intent(in) :: box
       type(state_t), intent(inout) :: state
       type(law_t) :: position(2), velocity(2)
       integer :: k, i, j, kind
 
-      call fill_copies(self%halo, state)
       if (self%n == 0) return
       position = [as_position(box, 1), as_position(box, 2)]
       velocity = [as_velocity(box, 1), as_velocity(box, 2)]
-      !$omp parallel do default(none) shared(self, box, state, position, velocity) private(i, j, kind)
+      !$omp parallel do default(none) shared(self, of_copies, box, state, position, velocity) private(i, j, kind)
       do k = 1, self%n
          i = self%source(k)
+         if ((i > self%n_own) .neqv. of_copies) cycle
          j = self%n_held + k
          kind = self%kind(k)
          state%x(j) = image_of(position(1), kind, state%x(i))
@@ -188,15 +231,53 @@ contains
          state%volume(j) = state%volume(i)
       end do
       !$omp end parallel do
-   end subroutine fill_state
+   end subroutine fill_images
+
+   ! Of the first passes what the second one needs of neighbours.
+   subroutine begin_gradients(self, box, p)
+      type(images_t), intent(inout) :: self
+      type(box_t), intent(in) :: box
+      type(particles_t), intent(inout) :: p
+
+      call start_copies(self%halo, p)
+      call fill_gradients(self, box, p)   ! those of copies not yet rightly
+   end subroutine begin_gradients
+
+   subroutine finish_gradients(self, box, p)
+      type(images_t), intent(inout) :: self
+      type(box_t), intent(in) :: box
+      type(particles_t), intent(inout) :: p
+
+      if (.not. self%halo%exists) return
+      call finish_copies(self%halo, p)
+      call fill_gradients(self, box, p)
+   end subroutine finish_gradients
+
+   subroutine fill_gradients(self, box, p)
+      type(images_t), intent(in) :: self
+      type(box_t), intent(in) :: box
+      type(particles_t), intent(inout) :: p
+
+      associate (held => self%n_held)
+         if (p%features%diffusion) then
+            call fill_from(self, as_gradient(box, 1), p%grad_x(:held), p%grad_x(held + 1:))
+            call fill_from(self, as_gradient(box, 2), p%grad_y(:held), p%grad_y(held + 1:))
+         end if
+         if (p%features%eddy) then
+            call fill_from(self, as_scalar, p%alpha(:held), p%alpha(held + 1:))
+            call fill_from(self, as_scalar, p%delta(:held), p%delta(held + 1:))
+         end if
+      end associate
+   end subroutine fill_gradients
 
    ! One field.
    subroutine fill_field(self, law, field)
-      type(images_t), intent(in) :: self
+      type(images_t), intent(inout) :: self
       type(law_t), intent(in) :: law
       real(dp), contiguous, intent(inout) :: field(:)   !! (n_slots)
 
-      call fill_copies(self%halo, field)
+      call start_copies(self%halo, field)
+      call finish_copies(self%halo, field)
       call fill_from(self, law, field(:self%n_held), field(self%n_held + 1:))
    end subroutine fill_field
 

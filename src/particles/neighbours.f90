@@ -49,6 +49,8 @@ module neighbours
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
       logical :: lasts = .false.     !! the lists serve for the next step
       integer :: n_blocks = 0
+      integer, allocatable :: order(:)               !! (n_blocks) those first that no copy and no image of one is near
+      integer :: n_inner = 0                         !! of these
       integer, allocatable :: first_block(:)         !! (own strips+1) of each own strip
       integer :: sorts = 0      !! so far
       type(division_t) :: division           !! among the processes
@@ -58,6 +60,7 @@ module neighbours
       type(margin_t), allocatable :: margins(:)      !! (n_blocks)
    contains
       procedure :: computes
+      procedure :: part
       procedure :: bytes => neighbours_bytes
    end type neighbours_t
 
@@ -71,6 +74,15 @@ contains
       if (allocated(self%blocks)) bytes = bytes + sum(self%blocks%bytes()) &
          + size(self%margins, kind=i8)*storage_size(self%margins)/8
    end function neighbours_bytes
+
+   !> From where to where in `order`: 1 for what can be computed while copies are on their way, 2 for the rest.
+   pure function part(self, number) result(span)
+      class(neighbours_t), intent(in) :: self
+      integer, intent(in) :: number
+      integer :: span(2)
+
+      span = merge([1, self%n_inner], [self%n_inner + 1, self%n_blocks], number == 1)
+   end function part
 
    !> Whether this process has all that is near a line across the box.
    elemental logical function computes(self, x)
@@ -417,7 +429,33 @@ contains
       !$omp end do
       !$omp end parallel
       if (.not. within_step) call swap_states(predicted, p%stage(1))
+      call find_inner(self, p%n_own, p%n_held)
    end subroutine list_neighbours
+
+   ! Blocks that can be computed while copies are on their way.
+   subroutine find_inner(self, n_own, n_held)
+      type(neighbours_t), intent(inout) :: self
+      integer, intent(in) :: n_own, n_held   !! slots
+      logical :: outer(self%n_blocks)
+      integer :: b, i, k
+
+      outer = .false.
+      if (self%images%halo%exists) then
+         !$omp parallel do default(none) shared(self, outer, n_own, n_held) private(i, k)
+         do b = 1, self%n_blocks
+            associate (block => self%blocks(b))
+               do k = 1, block%first(block%n_clusters + 1) - 1
+                  i = block%slot(k)
+                  if (i > n_held) i = self%images%source(i - n_held)
+                  outer(b) = outer(b) .or. i > n_own
+               end do
+            end associate
+         end do
+         !$omp end parallel do
+      end if
+      self%n_inner = count(.not. outer)
+      self%order = [pack([(b, b=1, self%n_blocks)], .not. outer), pack([(b, b=1, self%n_blocks)], outer)]
+   end subroutine find_inner
 
    ! The lists of a block's clusters.
    subroutine list_block(self, n, id, predicted, base, b, support, travel)

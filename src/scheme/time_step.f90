@@ -4,15 +4,14 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
-   use communication, only: any_process, largest_of_all, sums_of_all
+   use communication, only: any_process, largest_of_all
    use dissipation_sums, only: sum_dissipation
    use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
    use integrators, only: most_stages
-   use image_laws, only: as_gradient, as_scalar
-   use images, only: fill_ghosts, fill_slip
+   use images, only: begin_fill, fill_ghosts, fill_slip, finish_fill
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
@@ -198,7 +197,7 @@ contains
    subroutine first_sums(model, p, near, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(block_t), intent(inout) :: blocks(:)
       integer :: b
 
@@ -207,14 +206,6 @@ contains
          call begin_frozen_terms(model, p, near, b, blocks(b))
       end do
       !$omp end parallel do
-      if (p%features%diffusion) then
-         call fill_ghosts(near%images, as_gradient(model%box, 1), p%grad_x)
-         call fill_ghosts(near%images, as_gradient(model%box, 2), p%grad_y)
-      end if
-      if (model%dynamic) then
-         call fill_ghosts(near%images, as_scalar, p%alpha)
-         call fill_ghosts(near%images, as_scalar, p%delta)
-      end if
    end subroutine first_sums
 
    ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
@@ -256,7 +247,7 @@ contains
          changes(:, stage) = blocks%change(stage)
          if (stage < model%integrator%stages) call follow(model, p, near, run, stage, changes, timers, strayed)
       end do
-      near%jumped = any_process(any(blocks%wrapped))
+      near%jumped = any(blocks%wrapped)
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
       ! A solution that has left its range by so much is no better the second time.
@@ -307,22 +298,28 @@ contains
    subroutine first_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(moment_t), intent(in) :: moment
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
-      integer :: b, i0, n
+      integer :: b, i0, k, n, part, span(2)
 
-      !$omp parallel do default(none) shared(model, p, near, moment, blocks) private(i0, n, rates) schedule(dynamic)
-      do b = 1, near%n_blocks
-         i0 = near%blocks(b)%before
-         n = nl*near%blocks(b)%n_clusters
-         call complete_frozen_terms(model, p, near, b, blocks(b))
-         if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
-         call take_kept(p%next, i0, n, rates)
-         call update_block(model, p, i0, n, moment, rates, blocks(b))
+      call begin_fill(near%images, model%box, p)
+      do part = 1, 2
+         if (part == 2) call finish_fill(near%images, model%box, p)
+         span = near%part(part)
+         !$omp parallel do default(none) shared(model, p, near, moment, blocks, span) private(b, i0, n, rates) schedule(dynamic)
+         do k = span(1), span(2)
+            b = near%order(k)
+            i0 = near%blocks(b)%before
+            n = nl*near%blocks(b)%n_clusters
+            call complete_frozen_terms(model, p, near, b, blocks(b))
+            if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
+            call take_kept(p%next, i0, n, rates)
+            call update_block(model, p, i0, n, moment, rates, blocks(b))
+         end do
+         !$omp end parallel do
       end do
-      !$omp end parallel do
    end subroutine first_stage
 
    ! Rates of a block that a state's velocity and density have kept.
@@ -340,25 +337,30 @@ contains
    subroutine later_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(moment_t), intent(in) :: moment   !! of stage 2 or later
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
-      integer :: b, i0, n, now
+      integer :: b, i0, k, n, now, part, span(2)
 
       now = stage_state(moment%stage)
-      call fill_ghosts(near%images, moment%box, p%stage(now))
-      !$omp parallel do default(none) shared(model, p, near, moment, now, blocks) &
-      !$omp private(i0, n, sums, rates) schedule(dynamic)
-      do b = 1, near%n_blocks
-         i0 = near%blocks(b)%before
-         n = nl*near%blocks(b)%n_clusters
-         call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
-         call flow_rates(model, p%stage(now), i0, n, sums, rates)
-         call update_block(model, p, i0, n, moment, rates, blocks(b))
+      call begin_fill(near%images, moment%box, p%stage(now))
+      do part = 1, 2
+         if (part == 2) call finish_fill(near%images, moment%box, p%stage(now))
+         span = near%part(part)
+         !$omp parallel do default(none) shared(model, p, near, moment, now, blocks, span) &
+         !$omp private(b, i0, n, sums, rates) schedule(dynamic)
+         do k = span(1), span(2)
+            b = near%order(k)
+            i0 = near%blocks(b)%before
+            n = nl*near%blocks(b)%n_clusters
+            call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
+            call flow_rates(model, p%stage(now), i0, n, sums, rates)
+            call update_block(model, p, i0, n, moment, rates, blocks(b))
+         end do
+         !$omp end parallel do
       end do
-      !$omp end parallel do
    end subroutine later_stage
 
    ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them.
@@ -380,6 +382,8 @@ contains
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
       call first_sums(model, p, near, of_stage)
+      call begin_fill(near%images, model%box, p)
+      call finish_fill(near%images, model%box, p)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
       do b = 1, near%n_blocks
          call complete_frozen_terms(model, p, near, b, of_stage(b))
@@ -408,38 +412,44 @@ contains
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
-      real(dp), allocatable :: powers(:, :)
-      real(dp) :: totals(5), moving_walls, largest(6)
-      integer(i8) :: counts(2)
+      real(dp), allocatable :: sums(:, :)   ! of each strip
+      real(dp) :: totals(7), largest(7), moving_walls
       integer :: k
 
-      largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), &
-                             maxval(blocks%largest_pi), maxval(near%margins(:near%n_blocks)%next_stray), &
-                             merge(1.0_dp, 0.0_dp, any(blocks%lost_slot > 0))])
-      call largest_of_all(size(largest), largest)
-      counts = [sum(int(blocks%crossings, i8)), sum(int(blocks%singular, i8))]
-      call sums_of_all(size(counts), counts)
-      if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
-      allocate (powers(5, size(near%first_block) - 1))
-      !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, size(near%first_block)/256))
-      do k = 1, size(powers, 2)
-         powers(:, k) = strip_powers(near, k, blocks)
+      allocate (sums(7, size(near%first_block) - 1))
+      !$omp parallel do default(none) shared(near, blocks, sums) schedule(dynamic, max(1, size(near%first_block)/256))
+      do k = 1, size(sums, 2)
+         sums(:5, k) = strip_powers(near, k, blocks)
+         associate (here => blocks(near%first_block(k):near%first_block(k + 1) - 1))
+            sums(6:, k) = [sum(here%crossings), sum(here%singular)]
+         end associate
       end do
       !$omp end parallel do
-      totals = exact_totals(powers)
+      totals = exact_totals(sums)
+      largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), maxval(blocks%largest_pi), &
+                             maxval(near%margins(:near%n_blocks)%next_stray), one_if(any(blocks%lost_slot > 0)), &
+                             one_if(.not. lists_hold(near, run%dt))])
+      call largest_of_all(size(largest), largest)
+      if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
       moving_walls = run%dt*totals(5)
       run%work_alpha = run%work_alpha + totals(1) - moving_walls
       run%work_delta = run%work_delta + totals(2)
       run%work_walls = run%work_walls + totals(3) + moving_walls
       run%work_force = run%work_force + totals(4)
-      run%crossings = run%crossings + counts(1)
-      run%singular = run%singular + counts(2)
+      run%crossings = run%crossings + nint(totals(6), i8)
+      run%singular = run%singular + nint(totals(7), i8)
       call take_extremes(model, largest(1), largest(2), largest(3), run)
+      near%next_stray = largest(5)
       run%lost_slot = max(0, maxval(blocks%lost_slot))
       run%lost = largest(6) > 0
-      near%next_stray = largest(5)
-      near%lasts = .not. any_process(.not. lists_hold(near, run%dt))
+      near%lasts = .not. largest(7) > 0
    end subroutine collect
+
+   pure real(dp) function one_if(statement)
+      logical, intent(in) :: statement
+
+      one_if = merge(1.0_dp, 0.0_dp, statement)
+   end function one_if
 
    ! The works and the wall power of a strip, group by group.
    pure function strip_powers(near, strip, blocks) result(powers)
