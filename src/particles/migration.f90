@@ -1,11 +1,11 @@
 !> Before each sort: every process gets the particles of its own strips and copies of those beside them.
 module migration
    use box, only: box_t, left_wall, right_wall
-   use communication, only: exchange, exchange_counts, largest_of_all, n_processes, sums_of_all, this_process
+   use communication, only: exchange_counts, exchange_t, largest_of_all, n_processes, sums_of_all, this_process
    use division, only: cut, division_t, needed_by
    use kinds, only: dp, i8, sp
    use particles, only: particles_t, reserve_slots
-   use strips, only: strips_t
+   use strips, only: strips_t, too_scattered
    implicit none
    private
 
@@ -14,125 +14,150 @@ module migration
    integer, parameter :: n_kept = 11       ! numbers that a particle consists of
    integer, parameter :: sorts_a_cut = 64  ! until cuts are looked at again
 
+   !> The processes that need a place, but this one: those of place first + k - 1 are process(end(k) + 1:end(k + 1)).
+   type :: needs_t
+      integer(i8) :: first = 0
+      integer, allocatable :: process(:), end(:)
+   end type needs_t
+
 contains
 
-   !> Brings particles to where they are needed. `next` gets those of other processes behind its own slots, and `n_points` in all;
-   !! `number` is 0 for those that are not needed here.
+   !> Brings particles to where they are needed. `next` gets those of other processes behind its own slots, and has `n_points` then;
+   !! `number` is 0 for those that are not needed here any more.
    subroutine migrate(self, sorts, strips, p, box, reach, travel, n_points, number, scattered)
       type(division_t), intent(inout) :: self
       integer, intent(in) :: sorts               !! sorts before this one
-      type(strips_t), intent(inout) :: strips    !! of the sort to come: `own_places` is set
+      type(strips_t), intent(inout) :: strips    !! of the sort to come; on return with the own places
       type(particles_t), intent(inout) :: p      !! stage(1) has the positions that they are sorted by
       type(box_t), intent(in) :: box
-      real(dp), intent(in) :: reach, travel      !! length of a pair, and time that it may come closer for
+      real(dp), intent(in) :: reach              !! length at which two particles may matter for each other,
+      real(dp), intent(in) :: travel             !! until or since this time
       integer, intent(out) :: n_points
-      integer, allocatable, intent(out) :: number(:)
-      logical, intent(out) :: scattered
-      integer(i8), allocatable :: place(:), counts(:)
-      integer, allocatable :: destination(:), destination_end(:)   ! processes that need a place
-      integer, allocatable :: out_end(:), in_end(:), here(:)
-      real(dp), allocatable :: outgoing(:), incoming(:)
-      real(dp) :: extremes(4)   ! -least and largest of x and u
-      integer(i8) :: first_place, last_place
-      integer :: i, k, n, process
+      integer, allocatable, intent(out) :: number(:)   !! (n_points) of particles, for the sort
+      logical, intent(out) :: scattered          !! the fluid is too long for strips
+      type(needs_t) :: needs
+      type(exchange_t) :: messages
+      integer(i8) :: place(p%n_own), ends(2)
+      real(dp) :: extremes(4)   ! -least and largest of x, then of u
+      integer :: i
 
-      n = n_processes()
-      allocate (out_end(-1:n - 1), in_end(-1:n - 1), here(0:n - 1))
-      n_points = p%n_own
-      number = p%id(:p%n_own)
       extremes = -huge(1.0_dp)
       do i = 1, p%n_own
-         if (p%id(i) == 0) cycle
-         extremes = max(extremes, [-p%stage(1)%x(i), p%stage(1)%x(i), -p%next%u(i), p%next%u(i)])
+         if (p%id(i) > 0) extremes = max(extremes, [-p%stage(1)%x(i), p%stage(1)%x(i), -p%next%u(i), p%next%u(i)])
       end do
-      call largest_of_all(4, extremes)
-      ! As in module strips.
-      scattered = .not. (extremes(2) + extremes(1) < strips%width*4.0e6_dp .and. abs(extremes(1) + strips%origin) &
-                         < strips%width*2.0_dp**52)
+      call largest_of_all(size(extremes), extremes)
+      n_points = p%n_own
+      scattered = too_scattered(strips, -extremes(1), extremes(2))
       if (scattered) return
-      first_place = place_of(-extremes(1))
-      last_place = place_of(extremes(2))
-      place = [(place_of(p%stage(1)%x(i)), i=1, p%n_own)]
-      if (mod(sorts, sorts_a_cut) == 0) then
-         allocate (counts(last_place - first_place + 1), source=0_i8)
-         do i = 1, p%n_own
-            if (p%id(i) > 0) counts(place(i) - first_place + 1) = counts(place(i) - first_place + 1) + 1
-         end do
-         call sums_of_all(size(counts), counts)
-         call cut(self, first_place, counts)
-      end if
+      ends = strips%place_of([-extremes(1), extremes(2)])
+      do i = 1, p%n_own
+         place(i) = ends(1)
+         if (i > 1) place(i) = place(i - 1)
+         if (p%id(i) > 0) place(i) = strips%place_of(p%stage(1)%x(i))   ! dummies come behind particles
+      end do
+      if (mod(sorts, sorts_a_cut) == 0) call cut_anew(self, p%id(:p%n_own), place, ends)
       self%margin = ceiling((reach + travel*max(0.0_dp, extremes(4) + extremes(3)))/strips%width, i8) + 1
       self%periodic = box%is_periodic(1)
-      if (self%periodic) self%ends = [place_of(box%at(left_wall)), place_of(box%at(right_wall))]
+      if (self%periodic) self%ends = strips%place_of(box%at([left_wall, right_wall]))
       strips%own_places = self%own_places()
-
-      call list_destinations(self, first_place, last_place, destination, destination_end)
-      here = 0
+      if (p%n_own > 0) ends = [minval(place), maxval(place)]
+      call find_needs(self, ends, needs)
+      call pack_particles(p, place, needs, messages)
+      call messages%start()
+      number = p%id(:p%n_own)
       do i = 1, p%n_own
-         if (p%id(i) == 0) cycle
-         do k = destination_end(place(i) - first_place + 1) + 1, destination_end(place(i) - first_place + 2)
-            here(destination(k)) = here(destination(k)) + 1
-         end do
          if (.not. needed_by(self, this_process(), place(i))) number(i) = 0
       end do
-      out_end(-1) = 0
-      do process = 0, ubound(here, 1)
-         out_end(process) = out_end(process - 1) + n_kept*here(process)
-      end do
-      allocate (outgoing(out_end(ubound(here, 1))))
-      here = out_end(:ubound(here, 1) - 1)
-      do i = 1, p%n_own
-         if (p%id(i) == 0) cycle
-         do k = destination_end(place(i) - first_place + 1) + 1, destination_end(place(i) - first_place + 2)
-            process = destination(k)
-            outgoing(here(process) + 1:here(process) + n_kept) = numbers_of(p, i)
-            here(process) = here(process) + n_kept
-         end do
-      end do
-      call exchange_counts(out_end(0:) - out_end(:ubound(out_end, 1) - 1), here)
-      in_end(-1) = 0
-      do process = 0, ubound(here, 1)
-         in_end(process) = in_end(process - 1) + here(process)
-      end do
-      allocate (incoming(in_end(ubound(here, 1))))
-      call exchange(outgoing, out_end, incoming, in_end)
-      n = size(incoming)/n_kept
-      n_points = p%n_own + n
-      call reserve_slots(p, n_points)
-      number = [number, (nint(incoming(n_kept*(k - 1) + 1)), k=1, n)]
-      do k = 1, n
-         call take_numbers(p, p%n_own + k, incoming(n_kept*(k - 1) + 1:n_kept*k))
-      end do
-
-   contains
-
-      pure integer(i8) function place_of(x)
-         real(dp), intent(in) :: x
-
-         place_of = 0
-         if (x < 1.0e29_dp) place_of = floor((x - strips%origin)/strips%width, i8)
-      end function place_of
-
+      call messages%finish()
+      call unpack_particles(messages%incoming, p, n_points, number)
    end subroutine migrate
 
-   ! Of each place those that need it, but this process.
-   subroutine list_destinations(self, first_place, last_place, destination, destination_end)
-      type(division_t), intent(in) :: self
-      integer(i8), intent(in) :: first_place, last_place
-      integer, allocatable, intent(out) :: destination(:), destination_end(:)
-      integer(i8) :: place
-      integer :: process
+   ! Cuts for as many particles in each process.
+   subroutine cut_anew(self, id, place, ends)
+      type(division_t), intent(inout) :: self
+      integer, intent(in) :: id(:)
+      integer(i8), intent(in) :: place(:), ends(2)   ! of each particle; of all
+      integer(i8), allocatable :: counts(:)
+      integer :: i
 
-      destination = [integer ::]
-      destination_end = [0]
-      do place = first_place, last_place
-         do process = 0, n_processes() - 1
-            if (process == this_process()) cycle
-            if (needed_by(self, process, place)) destination = [destination, process]
-         end do
-         destination_end = [destination_end, size(destination)]
+      allocate (counts(ends(2) - ends(1) + 1), source=0_i8)
+      do i = 1, size(id)
+         if (id(i) > 0) counts(place(i) - ends(1) + 1) = counts(place(i) - ends(1) + 1) + 1
       end do
-   end subroutine list_destinations
+      call sums_of_all(size(counts), counts)
+      call cut(self, ends(1), counts)
+   end subroutine cut_anew
+
+   subroutine find_needs(self, ends, needs)
+      type(division_t), intent(in) :: self
+      integer(i8), intent(in) :: ends(2)   ! places of the particles here
+      type(needs_t), intent(out) :: needs
+      integer(i8) :: place
+      integer :: pass, process, n
+
+      needs%first = ends(1)
+      allocate (needs%end(max(0_i8, ends(2) - ends(1) + 1) + 1), source=0)
+      do pass = 1, 2   ! counts, then writes
+         n = 0
+         do place = ends(1), ends(2)
+            do process = 0, n_processes() - 1
+               if (process == this_process()) cycle
+               if (.not. needed_by(self, process, place)) cycle
+               n = n + 1
+               if (pass == 2) needs%process(n) = process
+            end do
+            needs%end(place - ends(1) + 2) = n
+         end do
+         if (pass == 1) allocate (needs%process(n))
+      end do
+   end subroutine find_needs
+
+   subroutine pack_particles(p, place, needs, messages)
+      type(particles_t), intent(in) :: p
+      integer(i8), intent(in) :: place(:)   ! (n_own)
+      type(needs_t), intent(in) :: needs
+      type(exchange_t), intent(inout) :: messages
+      integer, allocatable :: out_end(:), in_end(:), here(:)
+      integer :: i, j, k, n, pass, process
+
+      n = n_processes()
+      allocate (out_end(-1:n - 1), in_end(-1:n - 1), here(0:n - 1), source=0)
+      do pass = 1, 2
+         do i = 1, p%n_own
+            if (p%id(i) == 0) cycle
+            j = int(place(i) - needs%first) + 1
+            do k = needs%end(j) + 1, needs%end(j + 1)
+               process = needs%process(k)
+               if (pass == 2) messages%outgoing(n_kept*here(process) + 1:n_kept*here(process) + n_kept) = numbers_of(p, i)
+               here(process) = here(process) + 1
+            end do
+         end do
+         if (pass == 2) exit
+         call exchange_counts(here, in_end(0:))
+         do process = 0, n - 1
+            out_end(process) = out_end(process - 1) + here(process)
+            in_end(process) = in_end(process - 1) + in_end(process)
+         end do
+         here = out_end(:n - 2)
+         call messages%make_room(n_kept, out_end, in_end)
+      end do
+   end subroutine pack_particles
+
+   subroutine unpack_particles(numbers, p, n_points, number)
+      real(dp), intent(in) :: numbers(:)
+      type(particles_t), intent(inout) :: p
+      integer, intent(inout) :: n_points
+      integer, allocatable, intent(inout) :: number(:)
+      integer :: k, n
+
+      n = size(numbers)/n_kept
+      call reserve_slots(p, n_points + n)
+      do k = 1, n
+         call take_numbers(p, n_points + k, numbers(n_kept*(k - 1) + 1:n_kept*k))
+      end do
+      number = [number, p%id(n_points + 1:n_points + n)]
+      n_points = n_points + n
+   end subroutine unpack_particles
 
    ! All that a particle is.
    pure function numbers_of(p, i) result(numbers)

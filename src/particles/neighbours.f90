@@ -90,8 +90,7 @@ contains
       real(dp), intent(in) :: x   !! of the line
 
       associate (strips => self%strips)
-         computes = floor((x - strips%origin)/strips%width, i8) >= strips%own_places(1) &
-                    .and. floor((x - strips%origin)/strips%width, i8) <= strips%own_places(2)
+         computes = strips%place_of(x) >= strips%own_places(1) .and. strips%place_of(x) <= strips%own_places(2)
       end associate
    end function computes
 

@@ -13,7 +13,7 @@ module strips
    implicit none
    private
 
-   public :: strips_t, ranges_t, extent_t, sort_into_strips, add_ranges, relative_speed
+   public :: strips_t, ranges_t, extent_t, sort_into_strips, too_scattered, add_ranges, relative_speed
 
    integer, parameter, public :: group_slots = max(8, nl)   !! slots whose neighbours are searched for together
    integer, parameter :: strip_ranges = 24               ! strips that a group reaches, at least
@@ -61,6 +61,7 @@ module strips
       integer, allocatable, private :: by_strip(:)  !! (points) scratch
       integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from the first slot taken
    contains
+      procedure :: place_of
       procedure :: bytes => strips_bytes
    end type strips_t
 
@@ -86,14 +87,30 @@ contains
       call fill_bins(self, strip_start, number, y)
    end subroutine sort_into_strips
 
+   !> Where the strip of a point is, counted from the origin: that depends on no other point.
+   elemental integer(i8) function place_of(self, x) result(place)
+      class(strips_t), intent(in) :: self
+      real(dp), intent(in) :: x
+
+      place = floor((x - self%origin)/self%width, i8)
+   end function place_of
+
+   !> Whether there are points too far from others, or from the origin, for strips.
+   pure logical function too_scattered(self, first, last)
+      type(strips_t), intent(in) :: self
+      real(dp), intent(in) :: first, last   !! least and largest x
+      integer, parameter :: max_strips = 4000000
+      real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
+
+      too_scattered = .not. (last - first < self%width*max_strips .and. abs((first - self%origin)/self%width) < max_offset)
+   end function too_scattered
+
    ! The strip of each point; 0 for points that take no part.
    subroutine assign_strips(self, n_points, number, x)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: n_points, number(n_points)
       real(dp), intent(in) :: x(n_points)
-      integer, parameter :: max_strips = 4000000
-      real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
-      real(dp) :: first, last, offset
+      real(dp) :: first, last
       integer :: i
 
       first = huge(1.0_dp)
@@ -109,12 +126,10 @@ contains
       self%n_places = 0
       if (last >= first) then
          self%n = -1
-         offset = (first - self%origin)/self%width
-         if (.not. (last - first < self%width*max_strips .and. abs(offset) < max_offset)) return
-         ! Counted from the origin: what strip a point is in depends on no other point.
-         self%first_place = floor(offset, i8)
+         if (too_scattered(self, first, last)) return
+         self%first_place = self%place_of(first)
          self%left = self%origin + self%width*self%first_place
-         self%n_places = int(floor((last - self%origin)/self%width, i8) - self%first_place) + 1
+         self%n_places = int(self%place_of(last) - self%first_place) + 1
       end if
       call resize(self%strip_of, n_points)
       call resize(self%before, self%n_places + 1)
@@ -123,7 +138,7 @@ contains
       do i = 1, n_points
          self%strip_of(i) = 0
          if (number(i) == 0) cycle
-         self%strip_of(i) = int(floor((x(i) - self%origin)/self%width, i8) - self%first_place) + 1
+         self%strip_of(i) = int(self%place_of(x(i)) - self%first_place) + 1
          !$omp atomic write
          self%before(self%strip_of(i)) = 1
       end do
