@@ -2,7 +2,7 @@
 program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
-   use communication, only: is_first, start_processes
+   use communication, only: is_first, library_words, n_processes, start_processes
    use command_line, only: command_line_t, parse_command_line, write_help
    use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
@@ -66,6 +66,8 @@ contains
       write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'
       write (output_unit, '(a)') compiler_version()
       write (output_unit, '(a)') compiler_options()
+      if (library_words() /= '') write (output_unit, '(a, i0)') 'on many machines by '//library_words()//'; ranks here: ', &
+         n_processes()
       write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles, root by '//root_name//' ('//how_chosen//')'
    end subroutine write_version
 

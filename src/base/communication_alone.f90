@@ -5,8 +5,8 @@ module communication
    implicit none
    private
 
-   public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
-      exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+   public :: library_words, start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, &
+      sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -36,6 +36,13 @@ contains
    pure integer function this_process()
       this_process = 0
    end function this_process
+
+   !> What lets them talk to each other, for the user; '' in a program of one process.
+   pure function library_words() result(words)
+      character(:), allocatable :: words
+
+      words = ''
+   end function library_words
 
    !> Whether this is the process that writes files and talks to the user.
    pure logical function is_first()

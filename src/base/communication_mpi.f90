@@ -4,15 +4,16 @@
 module communication
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: dp, i8
-   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_recv, mpi_send, mpi_status_ignore, &
+   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_get_library_version, mpi_initialized, &
+      mpi_max_library_version_string, mpi_recv, mpi_send, mpi_status_ignore, &
       mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
       mpi_finalize, mpi_in_place, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_lor, mpi_logical, mpi_max, &
       mpi_request, mpi_statuses_ignore, mpi_sum, mpi_thread_funneled, mpi_waitall
    implicit none
    private
 
-   public :: start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, sums_of_all, &
-      exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+   public :: library_words, start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, &
+      sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -37,18 +38,37 @@ contains
 
    !> To be called when all is written.
    subroutine end_processes()
-      call mpi_finalize()
+      logical :: started
+
+      call mpi_initialized(started)
+      if (started) call mpi_finalize()
    end subroutine end_processes
 
-   !> How many there are.
+   !> How many there are; one before they are started, as in a test.
    integer function n_processes()
-      call mpi_comm_size(mpi_comm_world, n_processes)
+      logical :: started
+
+      n_processes = 1
+      call mpi_initialized(started)
+      if (started) call mpi_comm_size(mpi_comm_world, n_processes)
    end function n_processes
 
    !> Which of them this is, from 0.
    integer function this_process()
-      call mpi_comm_rank(mpi_comm_world, this_process)
+      this_process = 0
+      if (n_processes() > 1) call mpi_comm_rank(mpi_comm_world, this_process)
    end function this_process
+
+   !> What lets them talk to each other, for the user; '' in a program of one process.
+   function library_words() result(words)
+      character(:), allocatable :: words
+      character(mpi_max_library_version_string) :: buffer
+      integer :: length
+
+      call mpi_get_library_version(buffer, length)
+      words = buffer(:length)
+      if (scan(words, ',;('//new_line('a')) > 1) words = words(:scan(words, ',;('//new_line('a')) - 1)
+   end function library_words
 
    !> Whether this is the process that writes files and talks to the user.
    logical function is_first()
@@ -60,6 +80,7 @@ contains
       logical, intent(in) :: statement
 
       any_process = statement
+      if (n_processes() == 1) return
       call mpi_allreduce(mpi_in_place, any_process, 1, mpi_logical, mpi_lor, mpi_comm_world)
    end function any_process
 
@@ -68,6 +89,7 @@ contains
       integer, intent(in) :: n
       real(dp), intent(inout) :: values(n)
 
+      if (n_processes() == 1) return
       call mpi_allreduce(mpi_in_place, values, n, mpi_double_precision, mpi_max, mpi_comm_world)
    end subroutine largest_of_all
 
@@ -76,6 +98,7 @@ contains
       integer, intent(in) :: n
       integer(i8), intent(inout) :: numbers(n)
 
+      if (n_processes() == 1) return
       call mpi_allreduce(mpi_in_place, numbers, n, mpi_integer8, mpi_sum, mpi_comm_world)
    end subroutine sums_of_all
 
@@ -84,6 +107,8 @@ contains
       integer, intent(in) :: outgoing(0:)    !! (processes) for each
       integer, intent(out) :: incoming(0:)   !! (processes) of each
 
+      incoming = outgoing
+      if (n_processes() == 1) return
       call mpi_alltoall(outgoing, 1, mpi_integer, incoming, 1, mpi_integer, mpi_comm_world)
    end subroutine exchange_counts
 
@@ -95,6 +120,10 @@ contains
       integer, intent(in) :: in_end(-1:)
       type(exchange_t) :: messages
 
+      if (n_processes() == 1) then
+         incoming = outgoing
+         return
+      end if
       call messages%make_room(1, out_end, in_end)
       messages%outgoing = outgoing
       call messages%start()
@@ -173,6 +202,7 @@ contains
       character(:), allocatable :: buffer
       integer :: length
 
+      if (n_processes() == 1) return
       length = len(text)
       call mpi_bcast(length, 1, mpi_integer, process, mpi_comm_world)
       allocate (character(length) :: buffer)

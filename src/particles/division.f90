@@ -3,7 +3,7 @@
 !! No result depends on where cuts are. Places of strips are counted from the origin of `strips_t`.
 module division
    use communication, only: n_processes, this_process
-   use kinds, only: i8
+   use kinds, only: dp, i8
    use strips, only: all_places
    implicit none
    private
@@ -16,17 +16,18 @@ module division
       integer(i8) :: margin = 0              !! places beyond its own that a process needs
       logical :: periodic = .false.          !! and near the left side those near the right one, and the other way round
       integer(i8) :: ends(2) = 0             !! places of these sides
+      real(dp) :: busy = 0                   !! [s] that this process has computed since it was cut
    contains
       procedure :: own_places
    end type division_t
 
 contains
 
-   !> Cuts where each process gets about as many particles.
-   subroutine cut(self, first_place, counts)
+   !> Cuts where each process gets about as large a load.
+   subroutine cut(self, first_place, loads)
       type(division_t), intent(inout) :: self
       integer(i8), intent(in) :: first_place   !! of all
-      integer(i8), intent(in) :: counts(:)     !! (places) particles in each
+      integer(i8), intent(in) :: loads(:)      !! (places) of each
       integer(i8) :: before, total
       integer :: k, n, process
 
@@ -34,17 +35,17 @@ contains
       if (.not. allocated(self%first)) allocate (self%first(0:n))
       self%first = all_places + 1
       self%first(0) = -all_places
-      total = sum(counts)
+      total = sum(loads)
       before = 0
       process = 1
-      do k = 1, size(counts)
+      do k = 1, size(loads)
          ! A place goes where its middle is.
          do while (process < n)
-            if ((2*before + counts(k))*n < 2*process*total) exit
+            if (real(2*before + loads(k), dp)*n < 2.0_dp*process*total) exit
             self%first(process) = first_place + k - 1
             process = process + 1
          end do
-         before = before + counts(k)
+         before = before + loads(k)
       end do
    end subroutine cut
 

@@ -1,7 +1,7 @@
 !> Before each sort: every process gets the particles of its own strips and copies of those beside them.
 module migration
    use box, only: box_t, left_wall, right_wall
-   use communication, only: exchange_counts, exchange_t, largest_of_all, n_processes, sums_of_all, this_process
+   use communication, only: any_process, exchange_counts, exchange_t, largest_of_all, n_processes, sums_of_all, this_process
    use division, only: cut, division_t, needed_by
    use kinds, only: dp, i8, sp
    use particles, only: particles_t, reserve_slots
@@ -37,7 +37,7 @@ contains
       logical, intent(out) :: scattered          !! the fluid is too long for strips
       type(needs_t) :: needs
       type(exchange_t) :: messages
-      integer(i8) :: place(p%n_own), ends(2)
+      integer(i8) :: place(p%n_own), last_place, ends(2)
       real(dp) :: extremes(4)   ! -least and largest of x, then of u
       integer :: i
 
@@ -50,10 +50,10 @@ contains
       scattered = too_scattered(strips, -extremes(1), extremes(2))
       if (scattered) return
       ends = strips%place_of([-extremes(1), extremes(2)])
+      last_place = ends(1)
       do i = 1, p%n_own
-         place(i) = ends(1)
-         if (i > 1) place(i) = place(i - 1)
-         if (p%id(i) > 0) place(i) = strips%place_of(p%stage(1)%x(i))   ! dummies come behind particles
+         if (p%id(i) > 0) last_place = strips%place_of(p%stage(1)%x(i))
+         place(i) = last_place   ! dummies come behind particles
       end do
       if (mod(sorts, sorts_a_cut) == 0) call cut_anew(self, p%id(:p%n_own), place, ends)
       self%margin = ceiling((reach + travel*max(0.0_dp, extremes(4) + extremes(3)))/strips%width, i8) + 1
@@ -72,20 +72,25 @@ contains
       call unpack_particles(messages%incoming, p, n_points, number)
    end subroutine migrate
 
-   ! Cuts for as many particles in each process.
+   ! Cuts for as much time in each process, as its particles have taken since the last cuts; for as many particles in the beginning.
    subroutine cut_anew(self, id, place, ends)
       type(division_t), intent(inout) :: self
       integer, intent(in) :: id(:)
       integer(i8), intent(in) :: place(:), ends(2)   ! of each particle; of all
-      integer(i8), allocatable :: counts(:)
-      integer :: i
+      integer(i8), allocatable :: loads(:)
+      integer(i8) :: each
+      integer :: i, n_here
 
-      allocate (counts(ends(2) - ends(1) + 1), source=0_i8)
+      n_here = count(id > 0)
+      each = 1
+      if (.not. any_process(n_here > 0 .and. .not. self%busy > 0)) each = max(1_i8, nint(self%busy/max(1, n_here)*1.0e12_dp, i8))
+      allocate (loads(ends(2) - ends(1) + 1), source=0_i8)
       do i = 1, size(id)
-         if (id(i) > 0) counts(place(i) - ends(1) + 1) = counts(place(i) - ends(1) + 1) + 1
+         if (id(i) > 0) loads(place(i) - ends(1) + 1) = loads(place(i) - ends(1) + 1) + each
       end do
-      call sums_of_all(size(counts), counts)
-      call cut(self, ends(1), counts)
+      call sums_of_all(size(loads), loads)
+      call cut(self, ends(1), loads)
+      self%busy = 0
    end subroutine cut_anew
 
    subroutine find_needs(self, ends, needs)

@@ -21,7 +21,7 @@ module time_step
    use search_margins, only: lists_hold, lists_reach, plan_t, planned, watch_margins, widen_margins
    use step_state, only: step_t, take_extremes
    use strips, only: group_slots
-   use timers, only: timers_t
+   use timers, only: timers_t, wall_seconds
    implicit none
    private
 
@@ -199,13 +199,16 @@ contains
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(block_t), intent(inout) :: blocks(:)
+      real(dp) :: started
       integer :: b
 
+      started = wall_seconds()
       !$omp parallel do default(none) shared(model, p, near, blocks) schedule(dynamic)
       do b = 1, near%n_blocks
          call begin_frozen_terms(model, p, near, b, blocks(b))
       end do
       !$omp end parallel do
+      near%division%busy = near%division%busy + wall_seconds() - started
    end subroutine first_sums
 
    ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
@@ -302,12 +305,14 @@ contains
       type(moment_t), intent(in) :: moment
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
+      real(dp) :: started
       integer :: b, i0, k, n, part, span(2)
 
       call begin_fill(near%images, model%box, p)
       do part = 1, 2
          if (part == 2) call finish_fill(near%images, model%box, p)
          span = near%part(part)
+         started = wall_seconds()
          !$omp parallel do default(none) shared(model, p, near, moment, blocks, span) private(b, i0, n, rates) schedule(dynamic)
          do k = span(1), span(2)
             b = near%order(k)
@@ -319,6 +324,7 @@ contains
             call update_block(model, p, i0, n, moment, rates, blocks(b))
          end do
          !$omp end parallel do
+         near%division%busy = near%division%busy + wall_seconds() - started
       end do
    end subroutine first_stage
 
@@ -342,6 +348,7 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
+      real(dp) :: started
       integer :: b, i0, k, n, now, part, span(2)
 
       now = stage_state(moment%stage)
@@ -349,6 +356,7 @@ contains
       do part = 1, 2
          if (part == 2) call finish_fill(near%images, moment%box, p%stage(now))
          span = near%part(part)
+         started = wall_seconds()
          !$omp parallel do default(none) shared(model, p, near, moment, now, blocks, span) &
          !$omp private(b, i0, n, sums, rates) schedule(dynamic)
          do k = span(1), span(2)
@@ -360,6 +368,7 @@ contains
             call update_block(model, p, i0, n, moment, rates, blocks(b))
          end do
          !$omp end parallel do
+         near%division%busy = near%division%busy + wall_seconds() - started
       end do
    end subroutine later_stage
 
