@@ -47,7 +47,7 @@ contains
       end do
       call largest_of_all(size(extremes), extremes)
       n_points = p%n_own
-      scattered = too_scattered(strips, -extremes(1), extremes(2))
+      scattered = too_scattered(strips, -extremes(1), extremes(2), is_fluid=.true.)
       if (scattered) return
       ends = strips%place_of([-extremes(1), extremes(2)])
       last_place = ends(1)

@@ -80,7 +80,7 @@ contains
       logical, intent(in) :: whole_groups        !! pad each strip to whole groups
       integer, allocatable :: strip_start(:)
 
-      call assign_strips(self, n_points, number, x)
+      call assign_strips(self, n_points, number, x, whole_groups)
       if (self%n < 0) return
       call list_by_strip(self, n_points, strip_start)
       call lay_out(self, strip_start, y, first_slot, whole_groups)
@@ -96,20 +96,24 @@ contains
    end function place_of
 
    !> Whether there are points too far from others, or from the origin, for strips.
-   pure logical function too_scattered(self, first, last)
+   pure logical function too_scattered(self, first, last, is_fluid)
       type(strips_t), intent(in) :: self
       real(dp), intent(in) :: first, last   !! least and largest x
+      logical, intent(in) :: is_fluid       !! there may be images beyond them
+      integer, parameter :: for_images = 1000
       integer, parameter :: max_strips = 4000000
       real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
 
-      too_scattered = .not. (last - first < self%width*max_strips .and. abs((first - self%origin)/self%width) < max_offset)
+      too_scattered = .not. (last - first < self%width*(max_strips - merge(for_images, 0, is_fluid)) &
+                             .and. abs((first - self%origin)/self%width) < max_offset)
    end function too_scattered
 
    ! The strip of each point; 0 for points that take no part.
-   subroutine assign_strips(self, n_points, number, x)
+   subroutine assign_strips(self, n_points, number, x, is_fluid)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: n_points, number(n_points)
       real(dp), intent(in) :: x(n_points)
+      logical, intent(in) :: is_fluid
       real(dp) :: first, last
       integer :: i
 
@@ -126,7 +130,7 @@ contains
       self%n_places = 0
       if (last >= first) then
          self%n = -1
-         if (too_scattered(self, first, last)) return
+         if (too_scattered(self, first, last, is_fluid)) return
          self%first_place = self%place_of(first)
          self%left = self%origin + self%width*self%first_place
          self%n_places = int(self%place_of(last) - self%first_place) + 1
