@@ -100,7 +100,7 @@ contains
       type(strips_t), intent(in) :: self
       real(dp), intent(in) :: first, last   !! least and largest x
       logical, intent(in) :: is_fluid       !! there may be images beyond them
-      integer, parameter :: for_images = 1000
+      integer, parameter :: for_images = 8
       integer, parameter :: max_strips = 4000000
       real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
 
