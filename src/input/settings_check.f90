@@ -84,16 +84,18 @@ contains
    ! What the bodies start with must be slower than sound, and so must falling by their own height and moving walls.
    subroutine check_speeds(draft)
       type(draft_t), intent(inout) :: draft
-      real(dp) :: speed
+      real(dp) :: speed, force(2)
       integer :: i
 
       if (draft%notes%clean('domain')) call check_speed(draft, maxval(abs(draft%scene%domain%wall_speeds)), 'domain', 1, &
                                                         'wall_speeds', '&domain: the speed of a wall')
       if (.not. draft%notes%clean('body exact force')) return
+      force = abs(draft%scene%force%acceleration - [0.0_dp, draft%scene%fluid%gravity])
+      where ([draft%scene%domain%left, draft%scene%domain%bottom] == 'periodic') force = 0   ! viscosity holds such a flow
       do i = 1, size(draft%scene%bodies)
          associate (body => draft%scene%bodies(i))
             speed = max(start_speed(draft%scene, body, draft%solutions), &
-                        sqrt(draft%scene%fluid%gravity*max(0.0_dp, body%upper(2) - body%lower(2))))
+                        sqrt(maxval(force*max(0.0_dp, body%upper - body%lower))))
          end associate
          call check_speed(draft, speed, 'body', i, 'velocity', '&body number '//to_text(i) &
                           //': its speed, given or by the forces on it,')

@@ -34,6 +34,8 @@ refused(drop_with_weight 1 1 "" "&exact solution = 'oscillating_drop' needs grav
 refused(eddy_field_of_constant_model 1 1 "" "'alpha' is the same everywhere" --set output.fields=alpha ${dam_break})
 refused(narrow_tank 1 1 "" "narrower than 0.25" --set domain.upper=0.2,1.5 --set body.upper=0.2,1 ${scenes}/still_tank.nml)
 refused(supersonic_body 1 1 "" "is 6 times the sound speed" --set body.velocity=60,0 ${dam_break})
+refused(supersonic_fall 1 1 "" "its speed, given or by the forces on it, is 1.414E.* times the sound speed" --set force.acceleration=1e200,0
+   ${dam_break})
 refused(probe_off_its_wall 1 1 "" "lies 0.03 m from the nearest wall, more than dx/2 = 0.025" --set "probe(1).position=5.336666666666667,0.2"
    --set scene.resolution=20 ${dam_break})
 refused(probe_named_time 1 1 "" "name of another column" --set "probe(1).name=time" ${dam_break})

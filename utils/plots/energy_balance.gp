@@ -37,6 +37,10 @@ do for [i=1:n] {
    if (!single) {
       set yrange [1e-10:1]
       unset key
+      # Few ticks: a panel is narrow.
+      last = system("tail -n 1 '".data."' | awk '{ print $2 }'") + 0
+      step = last > 0 ? 10**floor(log10(last/2)) : 1
+      set xtics step*(last > 10*step ? 5 : last > 5*step ? 2 : 1)
       set label 1 sprintf('at most %.1e', largest_error) at graph 0.97,0.07 right front
    }
    plot data using (column('time_scaled')):(positive(abs(column('balance_error/dE')))) with lines linetype 4 \
