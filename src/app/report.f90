@@ -4,9 +4,10 @@ module report
    use budget, only: budget_t
    use build_info, only: build_type, git_id, version
    use cadence, only: cadence_t
-   use communication, only: library_words, n_processes, sums_of_all
+   use communication, only: largest_of_all, library_words, n_processes, sums_of_all
    use cost, only: cost_t
    use errors, only: failure
+   use exact_sum, only: exact_totals
    use kernel, only: k_2d
    use kinds, only: dp, i8
    use lanes, only: nl, root_name
@@ -297,6 +298,7 @@ contains
          call file%add('particle_steps_per_second', rate)
          if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()*n_processes()/rate)
          if (.not. rate > 0) call file%add('ns_per_particle_step_per_core', 'none')
+         if (n_processes() > 1) call summarise_ranks(state, seconds, file)
          call summarise_budget(state%recorder%budget, file)
          call file%add('max_density_variation', run%largest_variation)
          call file%add('max_mach', run%largest_mach)
@@ -311,6 +313,30 @@ contains
       end associate
       call file%write(path, problem)
    end subroutine write_summary_file
+
+   ! What several ranks cost: how unlike their loads are, what they wait for copies, and what they send.
+   subroutine summarise_ranks(state, seconds, file)
+      type(run_state_t), intent(in) :: state
+      real(dp), intent(in) :: seconds
+      type(summary_t), intent(inout) :: file
+      real(dp) :: largest(2), busy(1)
+      integer(i8) :: sent(2)
+
+      associate (division => state%near%division, exchange => state%near%images%halo%exchange, &
+                 steps => max(1, state%step%step - state%first_step))
+         busy = division%busy_before + division%busy
+         largest = [busy(1), division%waiting]
+         sent = [exchange%messages, exchange%bytes]
+         busy = exact_totals(reshape(busy, [1, 1]))
+         call largest_of_all(2, largest)
+         call sums_of_all(2, sent)
+         call file%add('largest_load_over_mean', largest(1)*n_processes()/busy(1))
+         call file%add('share_of_time_busy', busy(1)/n_processes()/seconds)
+         call file%add('largest_share_of_time_waiting', largest(2)/seconds)
+         call file%add('messages_a_step_and_rank', real(sent(1), dp)/steps/n_processes())
+         call file%add('bytes_a_step_and_rank', real(sent(2), dp)/steps/n_processes())
+      end associate
+   end subroutine summarise_ranks
 
    ! What is not in the budget's terms is left out, as in energy.dat.
    subroutine summarise_budget(budget, file)

@@ -11,6 +11,7 @@ module communication
    !> Numbers on their way to and from the others.
    type :: exchange_t
       real(dp), allocatable :: outgoing(:), incoming(:)   !! those of a process behind those of the one before it
+      integer(i8) :: messages = 0, bytes = 0              !! sent so far
    contains
       procedure :: make_room
       procedure :: start

@@ -18,6 +18,7 @@ module communication
    !> Numbers on their way to and from the others.
    type :: exchange_t
       real(dp), allocatable :: outgoing(:), incoming(:)   !! those of a process behind those of the one before it
+      integer(i8) :: messages = 0, bytes = 0              !! sent so far
       integer, allocatable, private :: out_end(:), in_end(:)   ! (-1:processes-1)
       type(mpi_request), allocatable, private :: requests(:)
       integer, private :: n = 0
@@ -165,7 +166,10 @@ contains
       end do
       do process = 0, ubound(self%out_end, 1)
          associate (first => self%out_end(process - 1) + 1, last => self%out_end(process))
-            if (last >= first) call send(self, process, last - first + 1, self%outgoing(first:last))
+            if (last < first) cycle
+            call send(self, process, last - first + 1, self%outgoing(first:last))
+            self%messages = self%messages + 1
+            self%bytes = self%bytes + storage_size(0.0_dp)/8*(last - first + 1)
          end associate
       end do
    end subroutine start

@@ -16,7 +16,9 @@ module division
       integer(i8) :: margin = 0              !! places beyond its own that a process needs
       logical :: periodic = .false.          !! and near the left side those near the right one, and the other way round
       integer(i8) :: ends(2) = 0             !! places of these sides
-      real(dp) :: busy = 0                   !! [s] that this process has computed since it was cut
+      real(dp) :: busy = 0                   !! [s] that this process has computed since it was cut,
+      real(dp) :: busy_before = 0            !! [s] and until then
+      real(dp) :: waiting = 0                !! [s] that it has waited for copies
    contains
       procedure :: own_places
    end type division_t

@@ -22,7 +22,7 @@ module halo
       logical :: exists = .false.
       integer, allocatable, private :: out_end(:), in_end(:)   !! (-1:processes-1) slots until that of a process
       type(segment_t), allocatable, private :: outgoing(:), incoming(:)
-      type(exchange_t), private :: exchange                    !! on its way
+      type(exchange_t) :: exchange                             !! on its way
    end type halo_t
 
    interface start_copies

@@ -90,6 +90,7 @@ contains
       end do
       call sums_of_all(size(loads), loads)
       call cut(self, ends(1), loads)
+      self%busy_before = self%busy_before + self%busy
       self%busy = 0
    end subroutine cut_anew
 

@@ -310,7 +310,11 @@ contains
 
       call begin_fill(near%images, model%box, p)
       do part = 1, 2
-         if (part == 2) call finish_fill(near%images, model%box, p)
+         if (part == 2) then
+            started = wall_seconds()
+            call finish_fill(near%images, model%box, p)
+            near%division%waiting = near%division%waiting + wall_seconds() - started
+         end if
          span = near%part(part)
          started = wall_seconds()
          !$omp parallel do default(none) shared(model, p, near, moment, blocks, span) private(b, i0, n, rates) schedule(dynamic)
@@ -354,7 +358,11 @@ contains
       now = stage_state(moment%stage)
       call begin_fill(near%images, moment%box, p%stage(now))
       do part = 1, 2
-         if (part == 2) call finish_fill(near%images, moment%box, p%stage(now))
+         if (part == 2) then
+            started = wall_seconds()
+            call finish_fill(near%images, moment%box, p%stage(now))
+            near%division%waiting = near%division%waiting + wall_seconds() - started
+         end if
          span = near%part(part)
          started = wall_seconds()
          !$omp parallel do default(none) shared(model, p, near, moment, now, blocks, span) &
