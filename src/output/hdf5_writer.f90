@@ -3,9 +3,9 @@
 !! A failing call of the library is remembered and makes the later ones do nothing;
 !! `finish` turns it into a failure. So the callers read as what they write.
 module hdf5_writer
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_loc, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
-   use communication, only: from_process, is_first, n_processes, sums_of_all, this_process, to_first
+   use communication, only: is_first, n_processes
    use errors, only: exit_files, failure
    use file_system, only: delete_file, partial_path, publish, secure_path
    use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dget_space_f, &
@@ -18,6 +18,7 @@ module hdf5_writer
       h5pclose_f, h5pcreate_f, h5pset_chunk_f, h5pset_fletcher32_f, &
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
+   use row_parts, only: rows_before, send_rows, take_rows
    use sealed_file, only: seal_bytes, seal_file
    use system_words, only: forget_reason, last_reason
    implicit none
@@ -357,17 +358,12 @@ contains
       integer(i8), allocatable :: before(:)      ! (0:processes) rows before those of a process
       integer(hsize_t) :: whole(size(extent)), rows(size(extent))
       integer(hid_t) :: space, dataset, properties
-      integer :: ignored, process, status
+      integer :: ignored, status
 
       whole = extent
-      allocate (before(0:n_processes()), source=0_i8)
       if (in_parts) then
-         before(this_process() + 1) = extent(size(extent))
-         call sums_of_all(size(before), before)
-         do process = 1, n_processes()
-            before(process) = before(process - 1) + before(process)
-         end do
-         whole(size(extent)) = before(n_processes())
+         before = rows_before(int(extent(size(extent)), i8))
+         whole(size(extent)) = before(ubound(before, 1))
       end if
       rows = chunk_of(whole)
       if (.not. is_first()) then
@@ -397,26 +393,6 @@ contains
       end if
    end subroutine put
 
-   ! What a process other than the first has of each chunk.
-   subroutine send_rows(before, chunk, row_bytes, address)
-      integer(i8), intent(in) :: before(0:)
-      integer(hsize_t), intent(in) :: chunk   !! rows
-      integer, intent(in) :: row_bytes
-      type(c_ptr), intent(in) :: address
-      integer(int8), pointer :: bytes(:)
-      integer(i8) :: first, last, start
-
-      associate (mine => before(this_process()), next => before(this_process() + 1))
-         if (next == mine) return
-         call c_f_pointer(address, bytes, [(next - mine)*row_bytes])
-         do start = 0, before(ubound(before, 1)) - 1, chunk
-            first = max(start, mine)
-            last = min(start + chunk, next)
-            if (last > first) call to_first(bytes((first - mine)*row_bytes + 1:(last - mine)*row_bytes))
-         end do
-      end associate
-   end subroutine send_rows
-
    ! Of the first process: all rows, chunk by chunk. What was sent is taken even if nothing can be written any more.
    subroutine write_rows(self, name, dataset, kind, whole, rows, before, row_bytes, address)
       class(hdf5_writer_t), intent(inout) :: self
@@ -426,31 +402,18 @@ contains
       integer(i8), intent(in) :: before(0:)
       integer, intent(in) :: row_bytes
       type(c_ptr), intent(in) :: address
-      integer(int8), pointer :: mine(:)
       integer(int8), allocatable, target :: chunk(:)
       integer(hsize_t) :: offset(size(whole)), here(size(whole))
       integer(hid_t) :: memory, space
       type(c_ptr) :: start_of_chunk
-      integer(i8) :: first, last, start
-      integer :: ignored, process, status
+      integer(i8) :: start
+      integer :: ignored, status
 
-      if (before(1) > 0) call c_f_pointer(address, mine, [before(1)*row_bytes])
       allocate (chunk(rows(size(rows))*row_bytes))
       do start = 0, whole(size(whole)) - 1, rows(size(rows))
          here = whole
          here(size(here)) = min(rows(size(rows)), whole(size(whole)) - start)
-         do process = 0, size(before) - 2
-            first = max(start, before(process))
-            last = min(start + here(size(here)), before(process + 1))
-            if (last <= first) cycle
-            associate (from => (first - start)*row_bytes + 1, to => (last - start)*row_bytes)
-               if (process == 0) then
-                  chunk(from:to) = mine(first*row_bytes + 1:last*row_bytes)
-               else
-                  call from_process(process, chunk(from:to))
-               end if
-            end associate
-         end do
+         call take_rows(before, start, here(size(here)), row_bytes, address, chunk)
          if (self%failed) cycle
          offset = 0
          offset(size(offset)) = start

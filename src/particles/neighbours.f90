@@ -17,6 +17,7 @@ module neighbours
    use kinds, only: dp, i8, sp
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
+   use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
    private
@@ -315,50 +316,6 @@ contains
       !$omp end parallel do
    end subroutine set_margins
 
-   ! Velocities of each strip and of all, without the dummies at a strip's end.
-   subroutine measure_strips(strips, state)
-      type(strips_t), intent(inout) :: strips
-      type(state_t), intent(in) :: state
-      integer :: k, first, last
-
-      strips%overall = extent_t()
-      if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, state) private(first, last) &
-      !$omp schedule(dynamic, max(1, strips%n/256))
-      do k = 1, strips%n
-         strips%extent(k) = extent_t()
-         first = strips%first(k)
-         last = strips%last(k)
-         do while (strips%point_of(last - strips%slots_before) == 0)
-            last = last - 1
-         end do
-         associate (extent => strips%extent(k))
-            call span_of(last - first + 1, state%u(first:last), extent%slowest(1), extent%fastest(1))
-            call span_of(last - first + 1, state%v(first:last), extent%slowest(2), extent%fastest(2))
-         end associate
-      end do
-      !$omp end parallel do
-      do k = 1, strips%n
-         strips%overall%slowest = min(strips%overall%slowest, strips%extent(k)%slowest)
-         strips%overall%fastest = max(strips%overall%fastest, strips%extent(k)%fastest)
-      end do
-   end subroutine measure_strips
-
-   pure subroutine span_of(n, values, least, most)
-      integer, intent(in) :: n
-      real(dp), intent(in) :: values(n)
-      real(dp), intent(out) :: least, most
-      integer :: i
-
-      least = values(1)
-      most = values(1)
-      !$omp simd reduction(min:least) reduction(max:most)
-      do i = 2, n
-         least = min(least, values(i))
-         most = max(most, values(i))
-      end do
-   end subroutine span_of
-
    ! The slack of each slot, into `slack`, of each strip and of all. An image has its source's.
    subroutine spread_slack(self, slack)
       type(neighbours_t), intent(inout) :: self
@@ -376,21 +333,6 @@ contains
       call take_slack(self%strips, slack)
       call take_slack(self%images%strips, slack)
    end subroutine spread_slack
-
-   subroutine take_slack(strips, slack)
-      type(strips_t), intent(inout) :: strips
-      real(dp), intent(in) :: slack(:)
-      integer :: k
-
-      strips%overall%slack = 0
-      if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, slack) schedule(dynamic, max(1, strips%n/256))
-      do k = 1, strips%n
-         strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%first(k):strips%last(k))))
-      end do
-      !$omp end parallel do
-      strips%overall%slack = maxval(strips%extent(:strips%n)%slack)
-   end subroutine take_slack
 
    !> Lists the slots that each cluster can reach until `travel` before or after the time that the
    !! particles were sorted for.
