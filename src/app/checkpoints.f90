@@ -141,13 +141,16 @@ contains
       type(checkpoint_file_t) :: candidate
       character(longest_path) :: path
       character(:), allocatable :: reason
+      logical :: there
       integer :: k
 
       turn = 0
       remarks = ''
       do k = 1, size(checkpoint_names)
          path = directory%file(trim(checkpoint_names(k)))
-         if (.not. path_exists(path)) cycle   ! none yet
+         there = .false.
+         if (is_first()) there = path_exists(path)
+         if (.not. any_process(there)) cycle   ! none yet
          call candidate%open(trim(path), reason)
          if (reason /= '') then
             remarks = remarks//"'"//trim(path)//"' cannot be used: "//reason//new_line('a')

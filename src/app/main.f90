@@ -42,7 +42,7 @@ program main
    call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
    if (options%help) then
-      call write_help(output_unit)
+      if (is_first()) call write_help(output_unit)
       call check_screen(problem)
    else if (options%version) then
       call write_version()
@@ -106,6 +106,7 @@ contains
       costs = estimate_cost(scene, model, count_particles(scene))
       call start_box(screen, scene, model, costs)
       call check_room(scene, costs, output_directory(options), screen, problem)
+      call problem%tell()
       if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
       if (.not. problem%raised()) call screen%line(options%scene//' is valid; nothing was run')
       if (.not. options%quiet) call check_screen(problem)

@@ -2,7 +2,7 @@
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
-   use communication, only: this_process
+   use communication, only: n_processes, this_process
    use equation_of_state, only: excess_density
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
@@ -131,21 +131,23 @@ contains
       type(particles_t), intent(out) :: p
       class(solution_t), allocatable :: solution
       type(sites_t) :: sites
-      integer :: k, i, slot, number, n
+      integer :: k, i, slot, number, n, mine
       real(dp) :: position(2), velocity(2), pressure
 
-      call allocate_particles(p, count_particles(scene), needed_features(scene, model))
+      call allocate_particles(p, count_particles(scene)/n_processes() + 1, needed_features(scene, model))
+      p%n = count_particles(scene)
       call new_solution(scene, model, solution)
       slot = 0
       number = 0
-      n = count_particles(scene)
+      n = p%n
+      mine = this_process()
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k))
             call place_sites(body, model%dx, sites)
             do i = 1, size(sites%x)
                number = number + 1
                ! Each process begins with a part of the numbers.
-               if (process_of(number, n) /= this_process()) cycle
+               if (process_of(number, n) /= mine) cycle
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]
                velocity = body%velocity

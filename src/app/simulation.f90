@@ -74,6 +74,7 @@ contains
       costs = estimate_cost(scene, model, count_particles(scene))
       call start_box(log, scene, model, costs)
       call check_room(scene, costs, directory%path, log, problem)
+      call problem%tell()
       if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
@@ -172,13 +173,14 @@ contains
       type(failure), intent(inout) :: problem   !! exit_input
       integer :: i
 
-      do i = 1, p%n
+      do i = 1, p%n_own
          if (.not. any(is_wall(box%kind) .and. [p%next%x(i) < box%at(1), p%next%x(i) > box%at(2), p%next%y(i) < box%at(3), &
                                                 p%next%y(i) > box%at(4)])) cycle
-         call problem%raise(exit_input, 'particle '//to_text(i)//' of the checkpoint, at ('//to_text(p%next%x(i))//', ' &
+         call problem%raise(exit_input, 'particle '//to_text(p%id(i))//' of the checkpoint, at ('//to_text(p%next%x(i))//', ' &
                             //to_text(p%next%y(i))//'), is outside of &domain: a fork must have all of the fluid in its box')
-         return
+         exit
       end do
+      call problem%tell()
    end subroutine check_box
 
    ! From here on files change: an earlier result is deleted; where the run goes on, what was written behind the checkpoint, which

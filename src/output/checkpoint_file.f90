@@ -109,12 +109,18 @@ contains
       if (status < 0) then
          self%file = -1
          reason = 'HDF5 cannot open it'
+      end if
+      call text_of_any(reason)
+      if (reason /= '') then
+         call self%close()
          return
       end if
       number = 0
       call self%keep('format', number)
-      if (number /= format) then
-         reason = 'its format is '//to_text(number)//', and this version knows '//to_text(format)
+      if (number /= format) reason = &
+         'its format is '//to_text(number)//', and this version knows '//to_text(format)
+      call text_of_any(reason)
+      if (reason /= '') then
          call self%close()
          return
       end if

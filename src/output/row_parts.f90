@@ -31,7 +31,7 @@ contains
       integer(i8), intent(in) :: chunk   !! rows
       integer, intent(in) :: row_bytes
       type(c_ptr), intent(in) :: address
-      integer(int8), pointer :: bytes(:)
+      integer(int8), pointer, contiguous :: bytes(:)
       integer(i8) :: first, last, start
 
       associate (mine => before(this_process()), next => before(this_process() + 1))
@@ -52,7 +52,7 @@ contains
       integer, intent(in) :: row_bytes
       type(c_ptr), intent(in) :: address         !! of its own rows
       integer(int8), contiguous, intent(inout) :: chunk(:)
-      integer(int8), pointer :: mine(:)
+      integer(int8), pointer, contiguous :: mine(:)
       integer(i8) :: first, last, from, to
       integer :: process
 

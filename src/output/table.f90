@@ -87,6 +87,7 @@ contains
       if (.not. is_first()) then
          self%unit = elsewhere
          call problem%tell()
+         if (problem%raised()) self%unit = no_unit
          return
       end if
       open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
@@ -112,6 +113,7 @@ contains
       call put(last)
       call flush_now(self, wall_seconds(), problem)
       call problem%tell()
+      if (problem%raised()) call give_up(self)
 
    contains
 
@@ -137,7 +139,17 @@ contains
       self%unit = merge(no_unit, elsewhere, only_check)
       if (is_first()) call open_begun(self, path, columns, only_check, problem)
       call problem%tell()
+      if (problem%raised()) call give_up(self)
    end subroutine go_on
+
+   ! A table that cannot be written is open nowhere.
+   subroutine give_up(self)
+      class(table_t), intent(inout) :: self
+      integer :: ignored
+
+      if (is_first() .and. self%unit /= no_unit) close (self%unit, iostat=ignored)
+      self%unit = no_unit
+   end subroutine give_up
 
    subroutine open_begun(self, path, columns, only_check, problem)
       class(table_t), intent(inout) :: self

@@ -39,7 +39,7 @@ contains
       type(exchange_t) :: messages
       integer(i8) :: place(p%n_own), last_place, ends(2)
       real(dp) :: extremes(4)   ! -least and largest of x, then of u
-      integer :: i
+      integer :: i, mine
 
       extremes = -huge(1.0_dp)
       do i = 1, p%n_own
@@ -56,17 +56,21 @@ contains
          place(i) = last_place   ! dummies come behind particles
       end do
       if (mod(sorts, sorts_a_cut) == 0) call cut_anew(self, p%id(:p%n_own), place, ends)
-      self%margin = ceiling((reach + travel*max(0.0_dp, extremes(4) + extremes(3)))/strips%width, i8) + 1
+      ! Images across a periodic side, probes and walls stand still, whatever the fluid does.
+      extremes(3:4) = max(0.0_dp, extremes(3:4))
+      self%margin = ceiling((reach + travel*(extremes(4) + extremes(3)))/strips%width, i8) + 1
       self%periodic = box%is_periodic(1)
       if (self%periodic) self%ends = strips%place_of(box%at([left_wall, right_wall]))
       strips%own_places = self%own_places()
+      ends = [1, 0]
       if (p%n_own > 0) ends = [minval(place), maxval(place)]
       call find_needs(self, ends, needs)
       call pack_particles(p, place, needs, messages)
       call messages%start()
       number = p%id(:p%n_own)
+      mine = this_process()
       do i = 1, p%n_own
-         if (.not. needed_by(self, this_process(), place(i))) number(i) = 0
+         if (.not. needed_by(self, mine, place(i))) number(i) = 0
       end do
       call messages%finish()
       call unpack_particles(messages%incoming, p, n_points, number)
@@ -83,7 +87,7 @@ contains
 
       n_here = count(id > 0)
       each = 1
-      if (.not. any_process(n_here > 0 .and. .not. self%busy > 0)) each = max(1_i8, nint(self%busy/max(1, n_here)*1.0e12_dp, i8))
+      if (.not. any_process(n_here > 0 .and. .not. self%busy > 0)) each = max(1_i8, nint(self%busy/max(1, n_here)*1.0e10_dp, i8))
       allocate (loads(ends(2) - ends(1) + 1), source=0_i8)
       do i = 1, size(id)
          if (id(i) > 0) loads(place(i) - ends(1) + 1) = loads(place(i) - ends(1) + 1) + each
@@ -99,15 +103,17 @@ contains
       integer(i8), intent(in) :: ends(2)   ! places of the particles here
       type(needs_t), intent(out) :: needs
       integer(i8) :: place
-      integer :: pass, process, n
+      integer :: pass, process, n, mine, last
 
+      mine = this_process()
+      last = n_processes() - 1
       needs%first = ends(1)
       allocate (needs%end(max(0_i8, ends(2) - ends(1) + 1) + 1), source=0)
       do pass = 1, 2   ! counts, then writes
          n = 0
          do place = ends(1), ends(2)
-            do process = 0, n_processes() - 1
-               if (process == this_process()) cycle
+            do process = 0, last
+               if (process == mine) cycle
                if (.not. needed_by(self, process, place)) cycle
                n = n + 1
                if (pass == 2) needs%process(n) = process

@@ -17,7 +17,7 @@ module strips
 
    integer, parameter, public :: group_slots = max(8, nl)   !! slots whose neighbours are searched for together
    integer, parameter :: strip_ranges = 24               ! strips that a group reaches, at least
-   integer, parameter, public :: max_ranges = strip_ranges + 2   !! a group's ranges
+   integer, parameter, public :: max_ranges = strip_ranges + 4   !! a group's ranges
 
    integer(i8), parameter, public :: all_places = 2_i8**60   !! from minus to plus this
 
@@ -377,9 +377,10 @@ contains
       real(dp), intent(in) :: travel   !! time
       type(ranges_t), intent(inout) :: ranges
       real(dp) :: reach, gap, half_height, strip_left, widest, closing(2)
-      integer :: k, k1, k2, first, last
+      integer :: k, k1, k2, first, last, part, part_before
 
       if (self%n == 0) return
+      part_before = 0
       closing = travel*relative_speed(box, self%overall)
       widest = support + box%slack + self%overall%slack + closing(1)
       k1 = int(max(0.0_dp, min(real(self%n_places, dp), (box%lower(1) - widest - self%left)/self%width))) + 1
@@ -395,21 +396,20 @@ contains
          first = self%bin_start(self%bin_offset(k) + bin(self, k, box%lower(2) - half_height))
          last = self%bin_start(self%bin_offset(k) + bin(self, k, box%upper(2) + half_height) + 1) - 1
          if (last < first) cycle
-         call add_range(ranges, first, last)
+         ! Left of the own strips, these, right of them: slots ascend within a part only.
+         part = merge(1, merge(2, 3, k <= self%own(2)), k < self%own(1))
+         call add_range(ranges, first, last, anew=part /= part_before)
+         part_before = part
       end do
    end subroutine add_ranges
 
-   ! Slots ascend from strip to strip, so where there is no place left the last range can take in all up to this one; but where
-   ! own strips begin or end they do not, for which two places are kept.
-   pure subroutine add_range(ranges, first, last)
+   ! Slots ascend from strip to strip, so where there is no place left the last range can take in all up to this one.
+   pure subroutine add_range(ranges, first, last, anew)
       type(ranges_t), intent(inout) :: ranges
       integer, intent(in) :: first, last
+      logical, intent(in) :: anew   ! not behind the last range: there is a place for each such
 
-      logical :: ascends
-
-      ascends = ranges%n > 0
-      if (ascends) ascends = first > ranges%last(ranges%n)
-      if (ranges%n < strip_ranges .or. .not. ascends) then
+      if (ranges%n < strip_ranges .or. anew) then
          ranges%n = ranges%n + 1
          ranges%first(ranges%n) = first
       end if

@@ -1,5 +1,6 @@
 !> Whether a run can go on from the result of a step.
 module step_check
+   use communication, only: this_process
    use errors, only: exit_numerics, failure, text_of_largest
    use box, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
@@ -25,7 +26,7 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      character(:), allocatable :: who
+      character(:), allocatable :: who, words
 
       associate (n => p%n_own, next => p%next, left => model%box%at(left_wall))
          if (run%scattered) then
@@ -35,8 +36,11 @@ contains
             return
          end if
          if (run%lost) then
-            if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
-            call problem%tell()
+            ! Slots ascend with x: the last of all is that of the last process that has one.
+            words = ''
+            if (run%lost_slot > 0) words = loss_text(model, p, run)
+            call text_of_largest(merge(real(this_process(), dp), -1.0_dp, run%lost_slot > 0), words)
+            call problem%raise(exit_numerics, words)
          end if
          ! Written so that NaN fails too.
          if (run%dt > least_step_share*model%longest_step() .or. .not. run%time < end_time) return
@@ -60,21 +64,21 @@ contains
       if (i == 0) call text_of_largest(-huge(1.0_dp), words)
    end subroutine find_largest
 
-   subroutine explain_loss(model, p, run, problem)
+   function loss_text(model, p, run) result(words)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(step_t), intent(in) :: run
-      type(failure), intent(inout) :: problem
+      character(:), allocatable :: words
       character(7) :: what
 
       associate (i => run%lost_slot, next => p%next)
          what = 'density'
          if (.not. norm2([next%u(i), next%v(i)]) < fastest*model%c0) what = 'speed'
-         call problem%raise(exit_numerics, 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i) &
-                            //', has speed/c0 '//to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 ' &
-                            //to_text(next%s(i)/model%rho0)//remedy(model, p%base%x(i), p%base%y(i)))
+         words = 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i)//', has speed/c0 ' &
+                 //to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 '//to_text(next%s(i)/model%rho0) &
+                 //remedy(model, p%base%x(i), p%base%y(i))
       end associate
-   end subroutine explain_loss
+   end function loss_text
 
    ! What may help; nothing that a smaller step could do helps where fluid falls out of the box.
    pure function remedy(model, x, y) result(words)

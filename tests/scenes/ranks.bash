@@ -60,29 +60,29 @@ goes_on_with_others)
    # Stopped with three ranks, goes on with two, then with one.
    scene=(--set scene.resolution=20 --set output.precision=double --set output.energy="1 steps" "$input/dam_break_lobovsky.nml")
    "$dynsph" --quiet --output one "${scene[@]}" 2>/dev/null
-   ranks 3 --output run "${scene[@]}" --set time.max_steps=100 2>/dev/null
-   ranks 2 --resume run --set time.max_steps=300 2>/dev/null
-   "$dynsph" --quiet --resume run --set time.max_steps=0 2>/dev/null
-   for table in energy probes; do cmp one/$table.dat run/$table.dat; done
+   ranks 3 --output run_$case "${scene[@]}" --set time.max_steps=100 2>/dev/null
+   ranks 2 --resume run_$case --set time.max_steps=300 2>/dev/null
+   "$dynsph" --quiet --resume run_$case --set time.max_steps=0 2>/dev/null
+   for table in energy probes; do cmp one/$table.dat run_$case/$table.dat; done
    grep '^steps = ' one/summary.txt >one.steps
-   grep '^steps = ' run/summary.txt | cmp - one.steps ;;
+   grep '^steps = ' run_$case/summary.txt | cmp - one.steps ;;
 signal | kill | stop)
-   ranks 3 --output run --set scene.resolution=20 --set time.end_time=100 "$input/dam_break.nml" >messages 2>&1 &
-   until [ -s run/checkpoint_a.h5 ]; do sleep 0.1; done
-   one=$(pgrep -f "^$dynsph --quiet --output run" | tail -n 1)
+   ranks 3 --output run_$case --set scene.resolution=20 --set time.end_time=100 "$input/dam_break.nml" >messages 2>&1 &
+   until [ -s run_$case/checkpoint_a.h5 ]; do sleep 0.1; done
+   one=$(pgrep -f "^$dynsph --quiet --output run_$case" | tail -n 1)
    case $case in
    signal) kill -TERM "$one" ;;
    kill) kill -KILL "$one" ;;
-   stop) touch run/STOP ;;
+   stop) touch run_$case/STOP ;;
    esac
    status=0
    wait $! || status=$?
    case $case in
-   kill) [ $status -ne 0 ] && [ ! -e run/summary.txt ] ;;
-   *) [ $status -eq 4 ] && grep '^status = stopped' run/summary.txt && [ "$(grep -c 'the run ended at' messages)" -eq 1 ] ;;
+   kill) [ $status -ne 0 ] && [ ! -e run_$case/summary.txt ] ;;
+   *) [ $status -eq 4 ] && grep '^status = stopped' run_$case/summary.txt && [ "$(grep -c 'the run ended at' messages)" -eq 1 ] ;;
    esac
-   ranks 2 --resume run --set time.max_steps=5000 2>/dev/null
-   grep '^steps = 5000' run/summary.txt ;;
+   ranks 2 --resume run_$case --set time.max_steps=5000 2>/dev/null
+   grep '^steps = 5000' run_$case/summary.txt ;;
 too_far | out_of_balance)
    # Fails with the words of a run of one process, once. In the first case the particle is one rank's.
    scene=(--set scene.resolution=16 --set time.balance_limit=5e-4 --set output.snapshots=never "$input/dam_break.nml")
@@ -97,15 +97,15 @@ too_far | out_of_balance)
    [ $status -eq 2 ] && [ "$(grep -cF "$(tail -n 1 words)" messages)" -eq 1 ] && same one 3 ;;
 no_table)
    # Only one rank sees that its table has gone.
-   ranks 3 --output run --set scene.resolution=20 --set time.end_time=100 "$input/dam_break.nml" >messages 2>&1 &
-   until [ -s run/energy.dat ]; do sleep 0.1; done
-   mv run/energy.dat elsewhere
+   ranks 3 --output run_$case --set scene.resolution=20 --set time.end_time=100 "$input/dam_break.nml" >messages 2>&1 &
+   until [ -s run_$case/energy.dat ]; do sleep 0.1; done
+   mv run_$case/energy.dat elsewhere
    status=0
    wait $! || status=$?
    [ $status -eq 3 ] && [ "$(grep -c 'was removed or renamed meanwhile' messages)" -eq 1 ] ;;
 refusal)
    status=0
-   ranks 3 --output run --set fluid.mach=-1 "$input/dam_break.nml" >messages 2>&1 || status=$?
-   [ $status -eq 1 ] && [ "$(grep -c 'is out of range' messages)" -eq 1 ] && [ ! -e run ] ;;
+   ranks 3 --output run_$case --set fluid.mach=-1 "$input/dam_break.nml" >messages 2>&1 || status=$?
+   [ $status -eq 1 ] && [ "$(grep -c 'is out of range' messages)" -eq 1 ] && [ ! -e run_$case ] ;;
 *) echo "ranks.bash: no case '$case'" >&2; exit 1 ;;
 esac
