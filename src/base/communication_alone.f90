@@ -5,8 +5,8 @@ module communication
    implicit none
    private
 
-   public :: library_words, start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, &
-      sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+   public :: start_processes, end_processes, n_processes, this_process, processes_here, is_first, library_words, any_process, &
+      largest_of_all, sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -37,6 +37,11 @@ contains
    pure integer function this_process()
       this_process = 0
    end function this_process
+
+   !> How many of them share the memory of this machine.
+   pure integer function processes_here()
+      processes_here = 1
+   end function processes_here
 
    !> What lets them talk to each other, for the user; '' in a program of one process.
    pure function library_words() result(words)

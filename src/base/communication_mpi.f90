@@ -4,16 +4,16 @@
 module communication
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: dp, i8
-   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_get_library_version, mpi_initialized, &
-      mpi_max_library_version_string, mpi_recv, mpi_send, mpi_status_ignore, &
-      mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
-      mpi_finalize, mpi_in_place, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_lor, mpi_logical, mpi_max, &
-      mpi_request, mpi_statuses_ignore, mpi_sum, mpi_thread_funneled, mpi_waitall
+   use mpi_f08, only: mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_comm, mpi_comm_free, mpi_comm_rank, &
+      mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, mpi_double_precision, mpi_finalize, &
+      mpi_get_library_version, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_initialized, mpi_integer, mpi_integer8, &
+      mpi_irecv, mpi_isend, mpi_logical, mpi_lor, mpi_max, mpi_max_library_version_string, mpi_recv, mpi_request, mpi_send, &
+      mpi_status_ignore, mpi_statuses_ignore, mpi_sum, mpi_thread_funneled, mpi_waitall
    implicit none
    private
 
-   public :: library_words, start_processes, end_processes, n_processes, this_process, is_first, any_process, largest_of_all, &
-      sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
+   public :: start_processes, end_processes, n_processes, this_process, processes_here, is_first, library_words, any_process, &
+      largest_of_all, sums_of_all, exchange_counts, exchange, exchange_t, tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -59,6 +59,17 @@ contains
       this_process = 0
       if (n_processes() > 1) call mpi_comm_rank(mpi_comm_world, this_process)
    end function this_process
+
+   !> How many of them share the memory of this machine.
+   integer function processes_here()
+      type(mpi_comm) :: machine
+
+      processes_here = 1
+      if (n_processes() == 1) return
+      call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
+      call mpi_comm_size(machine, processes_here)
+      call mpi_comm_free(machine)
+   end function processes_here
 
    !> What lets them talk to each other, for the user; '' in a program of one process.
    function library_words() result(words)
