@@ -10,6 +10,7 @@ module scene_setup
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
    use particles, only: allocate_particles, features_t, particles_t
+   use resting_fluid, only: held_force
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
    use solution_register, only: new_solution
@@ -75,10 +76,7 @@ contains
          box%at = [domain%lower(1), domain%upper(1), domain%lower(2), domain%upper(2)]
          box%velocity(2, [left_wall, right_wall]) = domain%wall_speeds([left_wall, right_wall])
          box%velocity(1, [bottom_wall, top_wall]) = domain%wall_speeds([bottom_wall, top_wall])
-         if (domain%images == 'hydrostatic') then
-            box%density_slope = fluid%density/fluid%sound_speed**2*(scene%force%acceleration - [0.0_dp, fluid%gravity])
-            where (box%is_periodic([1, 2])) box%density_slope = 0
-         end if
+         if (domain%images == 'hydrostatic') box%density_slope = fluid%density/fluid%sound_speed**2*held_force(scene)
       end associate
    end function set_up_box
 

@@ -6,7 +6,7 @@ module resting_fluid
    implicit none
    private
 
-   public :: resting_force, resting_force_t, touch, carried
+   public :: held_force, resting_force, resting_force_t, touch, carried
 
    !> The part of gravity and acceleration that pressure can balance: along the axis on which they are larger.
    type :: resting_force_t
@@ -18,13 +18,21 @@ module resting_fluid
 
 contains
 
-   !> Along periodic sides nothing holds the fluid: no pressure balances that part of the force.
+   !> Gravity and acceleration [m/s2]. Along periodic sides nothing holds the fluid: no pressure balances that part of the force.
+   pure function held_force(scene) result(force)
+      type(settings_t), intent(in) :: scene
+      real(dp) :: force(2)
+
+      force = scene%force%acceleration - [0.0_dp, scene%fluid%gravity]
+      where ([scene%domain%left, scene%domain%bottom] == 'periodic') force = 0
+   end function held_force
+
+   !> That force along its larger component.
    pure type(resting_force_t) function resting_force(scene) result(force)
       type(settings_t), intent(in) :: scene
       real(dp) :: total(2)
 
-      total = scene%force%acceleration - [0.0_dp, scene%fluid%gravity]
-      where ([scene%domain%left, scene%domain%bottom] == 'periodic') total = 0
+      total = held_force(scene)
       if (abs(total(1)) > abs(total(2))) force%axis = 1
       if (total(force%axis) > 0) force%down = 1
       force%size = abs(total(force%axis))

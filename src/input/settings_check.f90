@@ -12,6 +12,7 @@ module settings_check
    use kinds, only: dp
    use linear_stability, only: new_stability, stability_t
    use output_check, only: check_output
+   use resting_fluid, only: held_force
    use scene_keys, only: largest_mach
    use settings, only: settings_t
    use text, only: quoted, rounded_down, rounded_up, short, to_text
@@ -81,7 +82,7 @@ contains
       end if
    end subroutine check_mach
 
-   ! What the bodies start with must be slower than sound, and so must falling by their own height and moving walls.
+   ! What the bodies start with must be slower than sound, and so must falling by their own extent and moving walls.
    subroutine check_speeds(draft)
       type(draft_t), intent(inout) :: draft
       real(dp) :: speed, force(2)
@@ -90,8 +91,7 @@ contains
       if (draft%notes%clean('domain')) call check_speed(draft, maxval(abs(draft%scene%domain%wall_speeds)), 'domain', 1, &
                                                         'wall_speeds', '&domain: the speed of a wall')
       if (.not. draft%notes%clean('body exact force')) return
-      force = abs(draft%scene%force%acceleration - [0.0_dp, draft%scene%fluid%gravity])
-      where ([draft%scene%domain%left, draft%scene%domain%bottom] == 'periodic') force = 0   ! viscosity holds such a flow
+      force = abs(held_force(draft%scene))
       do i = 1, size(draft%scene%bodies)
          associate (body => draft%scene%bodies(i))
             speed = max(start_speed(draft%scene, body, draft%solutions), &
