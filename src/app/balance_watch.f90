@@ -1,7 +1,7 @@
 !> A watch on the energy balance: a flow that makes energy out of nothing, or loses it, is no flow any more.
 module balance_watch
    use budget, only: imbalance, works_t
-   use errors, only: exit_numerics, failure
+   use errors, only: exit_numerics, failure, text_of_largest
    use kinds, only: dp
    use model, only: model_t
    use run_state, only: run_state_t
@@ -26,7 +26,8 @@ contains
       type(run_state_t), intent(in) :: state    !! base state
       type(failure), intent(inout) :: problem
       real(dp) :: share
-      integer :: fastest, densest   ! slots
+      character(:), allocatable :: fastest, densest
+      integer :: i
 
       if (.not. limit > 0 .or. mod(state%step%step, balance_interval) /= 0) return
       associate (step => state%step, p => state%p)
@@ -34,17 +35,31 @@ contains
                                                                     step%work_force))
          if (share <= limit) return   ! NaN is beyond it
          associate (own => p%id(:p%n_own) > 0, base => p%base)
-            fastest = maxloc(base%u(:p%n_own)**2 + base%v(:p%n_own)**2, 1, own)
-            densest = maxloc(abs(base%s(:p%n_own)), 1, own)
+            fastest = ''
+            i = maxloc(base%u(:p%n_own)**2 + base%v(:p%n_own)**2, 1, own)
+            if (i > 0) fastest = 'particle '//to_text(p%id(i))//' at ('//to_text(base%x(i))//', '//to_text(base%y(i)) &
+                                 //') with speed/c0 '//short(norm2([base%u(i), base%v(i)])/model%c0)
+            call text_of_largest(largest_of(base%u(:p%n_own)**2 + base%v(:p%n_own)**2, i), fastest)
+            densest = ''
+            i = maxloc(abs(base%s(:p%n_own)), 1, own)
+            if (i > 0) densest = 'particle '//to_text(p%id(i))//' at ('//to_text(base%x(i))//', '//to_text(base%y(i)) &
+                                 //') with (rho - rho0)/rho0 '//short(base%s(i)/model%rho0)
+            call text_of_largest(largest_of(abs(base%s(:p%n_own)), i), densest)
             call problem%raise(exit_numerics, 'the energy balance misses '//short(share)//' of the energy after step ' &
                //to_text(step%step)//' at t = '//to_text(step%time)//', more than &time balance_limit = '//short(limit) &
-               //'; fastest: particle '//to_text(p%id(fastest))//' at ('//to_text(base%x(fastest))//', ' &
-               //to_text(base%y(fastest))//') with speed/c0 '//short(norm2([base%u(fastest), base%v(fastest)])/model%c0) &
-               //', densest or thinnest: particle '//to_text(p%id(densest))//' at ('//to_text(base%x(densest))//', ' &
-               //to_text(base%y(densest))//') with (rho - rho0)/rho0 '//short(base%s(densest)/model%rho0) &
+               //'; fastest: '//fastest//', densest or thinnest: '//densest &
                //'; a smaller cfl, more viscosity or a larger sound_speed may help')
          end associate
       end associate
    end subroutine watch_balance
+
+   ! The value in a slot; less than any other where there is none.
+   pure real(dp) function largest_of(values, slot) result(value)
+      real(dp), intent(in) :: values(:)
+      integer, intent(in) :: slot
+
+      value = -huge(1.0_dp)
+      if (slot > 0) value = values(slot)
+   end function largest_of
 
 end module balance_watch

@@ -2,8 +2,10 @@
 module checkpoints
    use cadence, only: cadence_t
    use checkpoint_file, only: checkpoint_file_t
+   use common_files, only: exists_for_all
+   use communication, only: any_process, is_first
    use errors, only: failure
-   use file_system, only: longest_path, path_exists, secure_path
+   use file_system, only: longest_path, secure_path
    use kinds, only: dp, i8
    use model, only: model_t
    use result_directory, only: checkpoint_names, result_directory_t
@@ -32,6 +34,7 @@ module checkpoints
    contains
       procedure :: start
       procedure :: watch
+      procedure :: look_at_clock
       procedure :: write => write_checkpoint
       procedure :: wanted
       procedure :: any_written
@@ -72,12 +75,19 @@ contains
       real(dp), intent(in) :: time, time_before
 
       self%due = self%due .or. self%when%is_due(step, time, time_before)
-      if (.not. self%due) self%due = self%when%is_due_by_clock(wall_seconds() - self%last)
    end subroutine watch
+
+   !> Looks whether one is due by the clock.
+   subroutine look_at_clock(self)
+      class(checkpoints_t), intent(inout) :: self
+
+      if (.not. self%due) self%due = self%when%is_due_by_clock(wall_seconds() - self%last)
+      self%due = any_process(self%due)
+   end subroutine look_at_clock
 
    !> Whether one is to be written where the particles are about to be sorted. At the end of a run this comes shortly before it,
    !! because the last step may be shorter than one of a run that goes on.
-   pure logical function wanted(self, scene, model, state, stop)
+   logical function wanted(self, scene, model, state, stop)
       class(checkpoints_t), intent(in) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
@@ -91,7 +101,7 @@ contains
    end function wanted
 
    ! Whether the run may end before the particles are sorted once more.
-   pure logical function ends_soon(scene, model, state)
+   logical function ends_soon(scene, model, state)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(run_state_t), intent(in) :: state
@@ -123,7 +133,7 @@ contains
       call state%archive(file)
       call file%finish(problem)
       if (problem%raised()) return
-      call secure_path(directory%path, ignored)   ! some file systems cannot
+      if (is_first()) call secure_path(directory%path, ignored)   ! some file systems cannot
       self%turn = 3 - self%turn
       self%number = self%number + 1
       self%due = .false.
@@ -139,13 +149,15 @@ contains
       type(checkpoint_file_t) :: candidate
       character(longest_path) :: path
       character(:), allocatable :: reason
+      logical :: there
       integer :: k
 
       turn = 0
       remarks = ''
       do k = 1, size(checkpoint_names)
          path = directory%file(trim(checkpoint_names(k)))
-         if (.not. path_exists(path)) cycle   ! none yet
+         there = exists_for_all(path)
+         if (.not. there) cycle   ! none yet
          call candidate%open(trim(path), reason)
          if (reason /= '') then
             remarks = remarks//"'"//trim(path)//"' cannot be used: "//reason//new_line('a')

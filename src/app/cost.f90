@@ -2,6 +2,7 @@
 !!
 !! Both together take less than a second, and a small part of what a short run takes.
 module cost
+   use communication, only: any_process, n_processes
    use errors, only: failure
    use kinds, only: dp
    use model, only: model_t
@@ -70,8 +71,13 @@ contains
    subroutine reckon(found)
       type(cost_t), intent(inout) :: found
 
-      found%seconds = found%steps*found%particles*found%ns*1.0e-9_dp/omp_get_max_threads()
+      found%seconds = found%steps*found%particles*found%ns*1.0e-9_dp/cores()
    end subroutine reckon
+
+   ! That all processes compute on.
+   integer function cores()
+      cores = omp_get_max_threads()*n_processes()
+   end function cores
 
    ! ns per particle-step and core of the scene's first steps, or of those of a coarser one if it is large, in a disordered flow.
    real(dp) function timed_ns(scene, seconds) result(ns)
@@ -84,7 +90,7 @@ contains
       call run_for(coarse_scene(scene, scene%scene%resolution*sqrt(timed_particles/count_particles(scene))), 1, seconds, &
                    particles, run, taken)
       ns = guessed_ns
-      if (run%step > 0) ns = disorder*taken*omp_get_max_threads()*1.0e9_dp/(real(run%step, dp)*particles)
+      if (run%step > 0) ns = disorder*taken*cores()*1.0e9_dp/(real(run%step, dp)*particles)
    end function timed_ns
 
    ! Mean step over the largest, in a coarse run of the scene.
@@ -119,6 +125,7 @@ contains
       type(failure) :: trouble
       real(dp) :: started
       integer :: before, first
+      logical :: over
 
       call timers%initialise([character(8) :: 'sort', 'first', 'second', 'stages'])
       model = set_up_model(scene)
@@ -129,7 +136,9 @@ contains
       started = wall_seconds()
       first = 0
       taken = 0
-      do while (.not. run%scattered .and. run%time < scene%time%end_time .and. taken < seconds)
+      do
+         over = run%scattered .or. run%time >= scene%time%end_time .or. taken >= seconds
+         if (any_process(over)) exit
          call advance(model, p, near, run, scene%time%end_time, timers)
          call check_step(model, p, run, scene%time%end_time, trouble)
          if (trouble%raised()) exit

@@ -1,8 +1,9 @@
 !> The limits of the weakly-compressible model, eq. 4 and sec. 2 of the paper: Ma <= 0.1 and |rho - rho0|/rho0 <= 1 %.
 module limits
    use archive, only: archive_t
+   use communication, only: sums_of_all
    use equation_of_state, only: specific_pressure
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use model, only: model_t
    use particles, only: particles_t
    use run_log, only: log_t
@@ -53,16 +54,27 @@ contains
             if (.not. extremes%mach > 0) call log%warn(mach_key, 'Mach number above 0.1 from t = '//short(run%time) &
                                                        //' on; a larger sound_speed would hold it')
             extremes%mach = run%mach
-            extremes%fast = count(own .and. max(u**2 + v**2, specific_pressure(model%c0, model%rho0, s)) > (run%mach*model%c0/2)**2)
+            extremes%fast = in_all(count(own .and. max(u**2 + v**2, specific_pressure(model%c0, model%rho0, s)) &
+                                         > (run%mach*model%c0/2)**2))
          end if
          if (run%variation > max(variation_limit, grown*extremes%variation)) then
             if (.not. extremes%variation > 0) call log%warn(density_key, 'density varies by more than 1 % from t = ' &
                                                             //short(run%time)//' on')
             extremes%variation = run%variation
-            extremes%dense = count(own .and. abs(s) > run%variation*model%rho0/2)
+            extremes%dense = in_all(count(own .and. abs(s) > run%variation*model%rho0/2))
          end if
       end associate
    end subroutine watch_limits
+
+   ! Of all processes.
+   integer function in_all(number)
+      integer, intent(in) :: number
+      integer(i8) :: total(1)
+
+      total = number
+      call sums_of_all(1, total)
+      in_all = int(total(1))
+   end function in_all
 
    !> Says at the end of the run how far the limits were passed, and which sound speeds would have held them.
    !!

@@ -2,6 +2,7 @@
 program main
    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version, output_unit
    use build_info, only: build_type, git_id, version
+   use communication, only: is_first, library_words, n_processes, start_processes, tell_all
    use command_line, only: command_line_t, parse_command_line, write_help
    use cost, only: cost_t, estimate_cost
    use errors, only: end_program, failure
@@ -20,6 +21,7 @@ program main
    use scene_setup, only: count_particles, set_up_model
    use settings, only: settings_t
    use solution_register, only: solutions_t
+   use stop_signals, only: stop_signals_t
    use standard_output, only: check_screen, errors_for_signals, print_text
    use text, only: to_text
    use threads, only: limit_threads
@@ -27,15 +29,20 @@ program main
 
    type(command_line_t) :: options
    type(failure) :: problem
+   type(stop_signals_t) :: signals
    character(:), allocatable :: arguments(:)
 
    call start_process()
+   ! Threads that come with MPI leave signals to ours.
+   call signals%hold()
+   call start_processes()
+   call signals%release()
    call errors_for_signals(pipes=.false.)
    call take_arguments(arguments)
    call parse_command_line(arguments, options, problem)
    if (problem%raised()) call end_program(problem)
    if (options%help) then
-      call write_help(output_unit)
+      if (is_first()) call write_help(output_unit)
       call check_screen(problem)
    else if (options%version) then
       call write_version()
@@ -55,9 +62,12 @@ program main
 contains
 
    subroutine write_version()
+      if (.not. is_first()) return
       write (output_unit, '(a)') 'dynsph '//version//' ('//git_id//', '//build_type//')'
       write (output_unit, '(a)') compiler_version()
       write (output_unit, '(a)') compiler_options()
+      if (library_words() /= '') write (output_unit, '(a, i0)') 'on many machines by '//library_words()//'; ranks here: ', &
+         n_processes()
       write (output_unit, '(a, i0, a)') 'clusters of ', nl, ' particles, root by '//root_name//' ('//how_chosen//')'
    end subroutine write_version
 
@@ -72,7 +82,10 @@ contains
       character(:), allocatable :: content, warnings(:)
       integer :: k
 
-      call load_scene(options%scene, content, problem)
+      content = ''
+      if (is_first()) call load_scene(options%scene, content, problem)
+      call problem%tell()
+      call tell_all(content, 0)
       if (problem%raised()) return
       call read_settings_text(content, options%scene, options%overrides, solutions_t(), scene, warnings, problem)
       if (problem%raised()) return
@@ -95,6 +108,7 @@ contains
       costs = estimate_cost(scene, model, count_particles(scene))
       call start_box(screen, scene, model, costs)
       call check_room(scene, costs, output_directory(options), screen, problem)
+      call problem%tell()
       if (scene%fluid%find_reference_speed) call screen%line(preliminary_text(scene))
       if (.not. problem%raised()) call screen%line(options%scene//' is valid; nothing was run')
       if (.not. options%quiet) call check_screen(problem)

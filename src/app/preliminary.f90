@@ -6,6 +6,7 @@
 !! the first one found (docs/equations.md).
 module preliminary
    use derived_settings, only: set_reference_speed
+   use communication, only: largest_of_all
    use equation_of_state, only: specific_pressure
    use errors, only: exit_input, exit_numerics, exit_stopped, failure
    use kinds, only: dp
@@ -233,6 +234,7 @@ contains
       real(dp), allocatable :: speeds(:)
 
       call speeds_of(model, p, speeds)
+      call largest_of_all(size(speeds), speeds)   ! those of other processes are 0; coarse runs are small
       found%fastest = max(found%fastest, maxval(speeds))
       if (.not. allocated(found%history)) allocate (found%history(1024), found%durations(1024))
       if (found%steps == size(found%history)) then
@@ -255,7 +257,7 @@ contains
       real(dp), allocatable, intent(out) :: speeds(:)   !! (n)
       integer :: i
 
-      allocate (speeds(p%n))
+      allocate (speeds(p%n), source=0.0_dp)
       do i = 1, p%n_own
          if (p%id(i) == 0) cycle
          associate (u => p%base%u(i), v => p%base%v(i), s => p%base%s(i))

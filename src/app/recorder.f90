@@ -5,6 +5,7 @@ module recorder
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use columns, only: columns_t
+   use communication, only: is_first, largest_of_all
    use energy_columns, only: energy_row
    use error_table, only: error_table_t
    use errors, only: failure
@@ -15,8 +16,9 @@ module recorder
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
+   use number_order, only: find_order, number_order_t
    use particles, only: particles_t
-   use probes, only: measure_sensor, new_sensor, sensor_t
+   use probes, only: measure_sensors, new_sensor, sensor_t
    use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name
    use series, only: series_t
    use settings, only: settings_t
@@ -94,6 +96,7 @@ contains
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p       !! base state at t = 0
       character(:), allocatable :: message
+      real(dp) :: top(1)   ! of the fluid
       integer :: k
 
       ! The cadences' texts were checked with the input.
@@ -117,8 +120,9 @@ contains
       end do
       ! For the acoustic modes of the box in spectra; 0 where there are no walls for them.
       if (all(model%box%has_wall([left_wall, right_wall]))) self%probe_box(1) = scene%domain%upper(1) - scene%domain%lower(1)
-      if (model%box%has_wall(bottom_wall)) &
-         self%probe_box(2) = maxval(p%base%y, p%id > 0) + model%dx/2 - scene%domain%lower(2)
+      top = maxval(p%base%y(:p%n_own), p%id(:p%n_own) > 0)
+      call largest_of_all(1, top)
+      if (model%box%has_wall(bottom_wall)) self%probe_box(2) = top(1) + model%dx/2 - scene%domain%lower(2)
       call self%errors%start(scene, model, p, self%scale)
    end subroutine start
 
@@ -255,7 +259,7 @@ contains
       call self%energy_table%row(row%values, problem)
    end subroutine record_energies
 
-   pure function probe_row(self, model, p, near, time) result(row)
+   function probe_row(self, model, p, near, time) result(row)
       class(recorder_t), intent(in) :: self
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
@@ -266,9 +270,7 @@ contains
 
       row(1) = time
       row(2) = time/self%scale%unit
-      do k = 1, size(self%sensors)
-         row(k + 2) = measure_sensor(model, p, near, self%sensors(k))
-      end do
+      row(3:2 + size(self%sensors)) = measure_sensors(model, p, near, self%sensors)
       do k = 1, size(self%gauges)
          row(k + 2 + size(self%sensors)) = measure_gauge(model, p, near, self%gauges(k))
       end do
@@ -286,19 +288,16 @@ contains
       type(failure), intent(inout) :: problem
       type(snapshot_field), allocatable :: fields(:)
       character(:), allocatable :: path
-      integer, allocatable :: slot(:), id(:)
+      type(number_order_t) :: order
       integer :: i
 
-      allocate (slot(p%n))
-      do i = 1, p%n_own
-         if (p%id(i) > 0) slot(p%id(i)) = i
-      end do
-      id = [(i, i=1, p%n)]
-      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, slot, fields)
+      call find_order(p, order)
+      call fill_fields(scene%output%fields(:scene%output%n_fields), model, p, near, order, fields)
       self%head%time = run%time
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
-      call write_snapshot(path, self%head, id, p%base%x(slot), p%base%y(slot), fields, scene%output%precision, problem)
+      call write_snapshot(path, self%head, [(i, i=order%first, order%last)], order%sorted(p%base%x), order%sorted(p%base%y), &
+                          fields, scene%output%precision, problem)
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
@@ -313,7 +312,7 @@ contains
 
       ! One that the user has taken away is no failure.
       do k = self%secured, self%series%count() - 1
-         call secure_path(directory%snapshot_path(k), ignored)
+         if (is_first()) call secure_path(directory%snapshot_path(k), ignored)
       end do
       self%secured = self%series%count()
       call self%energy_table%secure(problem)

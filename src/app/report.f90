@@ -4,10 +4,12 @@ module report
    use budget, only: budget_t
    use build_info, only: build_type, git_id, version
    use cadence, only: cadence_t
+   use communication, only: largest_of_all, library_words, n_processes, reductions, sums_of_all
    use cost, only: cost_t
    use errors, only: failure
+   use exact_sum, only: exact_totals
    use kernel, only: k_2d
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use lanes, only: nl, root_name
    use limits, only: sound_speed_for_density, sound_speed_for_mach
    use model, only: model_t, terms_t
@@ -96,6 +98,7 @@ contains
 
       words = to_text(omp_get_max_threads())//' threads'
       if (omp_get_max_threads() == 1) words = 'one thread'
+      if (n_processes() > 1) words = to_text(n_processes())//' ranks of '//words
    end function threads_text
 
    ! sqrt(g d), or the speed given where there is no gravity.
@@ -274,6 +277,7 @@ contains
       type(failure), intent(inout) :: problem
       type(summary_t) :: file
       real(dp) :: rate
+      integer(i8) :: bytes(1)
 
       associate (run => state%step, p => state%p)
          rate = real(p%n, dp)*(run%step - state%first_step)/max(seconds, tiny(1.0_dp))
@@ -281,16 +285,20 @@ contains
          if (reason /= '') call file%add('reason', reason)
          if (origin /= '') call file%add('forked_from', origin)
          call file%add('particles', p%n)
-         call file%add('bytes_per_particle', real(p%bytes() + state%near%bytes(), dp)/p%n)
+         bytes = p%bytes() + state%near%bytes()
+         call sums_of_all(1, bytes)
+         call file%add('bytes_per_particle', real(bytes(1), dp)/p%n)
          call file%add('steps', run%step)
          call file%add('time', run%time)
          call file%add('threads', omp_get_max_threads())
+         if (library_words() /= '') call file%add('ranks', n_processes())
          call file%add('lanes', nl)
          call file%add('root', root_name)
          call file%add('run_seconds', seconds)
          call file%add('particle_steps_per_second', rate)
-         if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()/rate)
+         if (rate > 0) call file%add('ns_per_particle_step_per_core', 1.0e9_dp*omp_get_max_threads()*n_processes()/rate)
          if (.not. rate > 0) call file%add('ns_per_particle_step_per_core', 'none')
+         if (n_processes() > 1) call summarise_ranks(state, seconds, file)
          call summarise_budget(state%recorder%budget, file)
          call file%add('max_density_variation', run%largest_variation)
          call file%add('max_mach', run%largest_mach)
@@ -305,6 +313,32 @@ contains
       end associate
       call file%write(path, problem)
    end subroutine write_summary_file
+
+   ! What several ranks cost: how unlike their loads are, what they wait for copies, and what they send.
+   subroutine summarise_ranks(state, seconds, file)
+      type(run_state_t), intent(in) :: state
+      real(dp), intent(in) :: seconds
+      type(summary_t), intent(inout) :: file
+      real(dp) :: largest(2), busy(1)
+      integer(i8) :: sent(2), waits
+
+      waits = reductions()
+      associate (division => state%near%division, exchange => state%near%images%halo%exchange, &
+                 steps => max(1, state%step%step - state%first_step))
+         busy = division%busy_before + division%busy
+         largest = [busy(1), division%waiting]
+         sent = [exchange%messages, exchange%bytes]
+         busy = exact_totals(reshape(busy, [1, 1]))
+         call largest_of_all(2, largest)
+         call sums_of_all(2, sent)
+         call file%add('largest_load_over_mean', largest(1)*n_processes()/busy(1))
+         call file%add('share_of_time_busy', busy(1)/n_processes()/seconds)
+         call file%add('largest_share_of_time_waiting', largest(2)/seconds)
+         call file%add('messages_a_step_and_rank', real(sent(1), dp)/steps/n_processes())
+         call file%add('bytes_a_step_and_rank', real(sent(2), dp)/steps/n_processes())
+         call file%add('reductions_a_step', real(waits, dp)/steps)
+      end associate
+   end subroutine summarise_ranks
 
    ! What is not in the budget's terms is left out, as in energy.dat.
    subroutine summarise_budget(budget, file)

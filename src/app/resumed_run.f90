@@ -6,8 +6,8 @@ module resumed_run
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: latest_checkpoint
    use command_line, only: command_line_t
+   use common_files, only: exists_for_all, read_for_all, same_for_all
    use errors, only: exit_files, exit_input, failure
-   use file_system, only: path_exists, read_whole_file, same_place
    use key_writer, only: complete_input
    use result_directory, only: checkpoint_names, input_name, result_directory_t, summary_name
    use run_log, only: log_t
@@ -84,8 +84,8 @@ contains
       character(:), allocatable :: content, reason
       logical :: fits
 
-      if (.not. path_exists(directory%file(input_name))) return
-      call read_whole_file(directory%file(input_name), content, problem)
+      if (.not. exists_for_all(directory%file(input_name))) return
+      call read_for_all(directory%file(input_name), content, problem)
       if (problem%raised()) return
       fits = content == with_origin(beginning%file%origin, beginning%file%input)
       if (.not. fits) then
@@ -105,7 +105,7 @@ contains
       type(result_directory_t), intent(inout) :: directory
       type(failure), intent(inout) :: problem
 
-      if (same_place(options%fork, source%path)) then
+      if (same_for_all(options%fork, source%path)) then
          call problem%raise(exit_input, "'"//options%fork//"' is the directory of the run itself: leave out --fork, or choose " &
                             //'another directory')
          return
@@ -222,17 +222,17 @@ contains
       type(cadence_t) :: when
       logical :: begun, later
 
-      begun = path_exists(directory%file(input_name))
-      later = path_exists(directory%file(summary_name))
+      begun = exists_for_all(directory%file(input_name))
+      later = exists_for_all(directory%file(summary_name))
       if (later) then
          ! It ended; but one whose disk was full had not begun well.
-         call read_whole_file(directory%file(summary_name), content, problem)
+         call read_for_all(directory%file(summary_name), content, problem)
          later = index(content, 'status = failed: output') == 0
       end if
-      if (.not. later) later = path_exists(directory%snapshot_path(later_snapshot))
+      if (.not. later) later = exists_for_all(directory%snapshot_path(later_snapshot))
       content = ''
       if (begun .and. .not. later .and. options%fork == '' .and. remarks == '') &
-         call read_whole_file(directory%file(input_name), content, problem)
+         call read_for_all(directory%file(input_name), content, problem)
       call directory%release()
       if (problem%raised()) return
       if (index(content, 'checkpoint = ') == 0) content = ''   ! of a version that had none

@@ -1,6 +1,7 @@
 !> Whether there is room for a run: memory before anything large is allocated, space on the disk for what it will write.
 module room
    use cadence, only: cadence_t
+   use communication, only: n_processes, processes_here
    use cost, only: cost_t
    use errors, only: exit_files, failure
    use kinds, only: dp
@@ -26,7 +27,7 @@ contains
       character(*), intent(in) :: path          !! directory of the results
       type(log_t), intent(inout) :: log
       type(failure), intent(inout) :: problem
-      real(dp) :: memory, bytes, disk
+      real(dp) :: memory, needed, bytes, disk
 
       associate (output => scene%output)
          call check_cadence('energy', output%energy)
@@ -39,7 +40,8 @@ contains
       if (bytes > disk) call log%warn('disk', 'the run will write about '//size_text(bytes)//', and '//size_text(disk) &
                                       //" are free where '"//path//"' is: write less often, or elsewhere with --output DIR")
       memory = available_memory()
-      if (costs%bytes > memory) call problem%raise(exit_files, 'the run needs about '//size_text(costs%bytes) &
+      needed = costs%bytes*processes_here()/n_processes()
+      if (needed > memory) call problem%raise(exit_files, 'the run needs about '//size_text(needed) &
          //' of memory, and '//size_text(memory)//' are free: lower the resolution, or run it on a larger machine')
 
    contains

@@ -2,6 +2,7 @@
 module scene_setup
    use body_particles, only: count_sites, place_sites, sites_t
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
+   use communication, only: n_processes, this_process
    use equation_of_state, only: excess_density
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
@@ -9,6 +10,7 @@ module scene_setup
    use kinds, only: dp
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
+   use number_order, only: process_of
    use particles, only: allocate_particles, features_t, particles_t
    use resting_fluid, only: held_force
    use settings, only: is_wall, settings_t
@@ -127,23 +129,30 @@ contains
       type(particles_t), intent(out) :: p
       class(solution_t), allocatable :: solution
       type(sites_t) :: sites
-      integer :: k, i, slot
+      integer :: k, i, slot, number, n, mine
       real(dp) :: position(2), velocity(2), pressure
 
-      call allocate_particles(p, count_particles(scene), needed_features(scene, model))
+      call allocate_particles(p, count_particles(scene)/n_processes() + 1, needed_features(scene, model))
+      p%n = count_particles(scene)
       call new_solution(scene, model, solution)
       slot = 0
+      number = 0
+      n = p%n
+      mine = this_process()
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k))
             call place_sites(body, model%dx, sites)
             do i = 1, size(sites%x)
+               number = number + 1
+               ! Each process begins with a part of the numbers.
+               if (process_of(number, n) /= mine) cycle
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]
                velocity = body%velocity
                if (body%flow == 'exact') velocity = solution%velocity(position)
                pressure = pressure_at(scene, k, position)
                if (body%pressure == 'exact') pressure = solution%pressure(position)
-               p%id(slot) = slot
+               p%id(slot) = number
                p%next%x(slot) = position(1)
                p%next%y(slot) = position(2)
                p%next%u(slot) = velocity(1)
@@ -155,6 +164,7 @@ contains
          end associate
       end do
       p%n_own = slot
+      p%n_held = slot
    end subroutine set_up_particles
 
 end module scene_setup

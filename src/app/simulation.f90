@@ -5,6 +5,7 @@ module simulation
    use budget, only: begin_balance_anew, works_t
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
+   use communication, only: is_first
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_files, exit_input, exit_numerics, exit_stopped, failure
    use file_system, only: delete_file, file_bytes, path_exists, write_whole_file
@@ -73,6 +74,7 @@ contains
       costs = estimate_cost(scene, model, count_particles(scene))
       call start_box(log, scene, model, costs)
       call check_room(scene, costs, directory%path, log, problem)
+      call problem%tell()
       if (problem%raised()) return
       started = wall_seconds()
       call timers%initialise(phases)
@@ -171,13 +173,14 @@ contains
       type(failure), intent(inout) :: problem   !! exit_input
       integer :: i
 
-      do i = 1, p%n
+      do i = 1, p%n_own
          if (.not. any(is_wall(box%kind) .and. [p%next%x(i) < box%at(1), p%next%x(i) > box%at(2), p%next%y(i) < box%at(3), &
                                                 p%next%y(i) > box%at(4)])) cycle
-         call problem%raise(exit_input, 'particle '//to_text(i)//' of the checkpoint, at ('//to_text(p%next%x(i))//', ' &
+         call problem%raise(exit_input, 'particle '//to_text(p%id(i))//' of the checkpoint, at ('//to_text(p%next%x(i))//', ' &
                             //to_text(p%next%y(i))//'), is outside of &domain: a fork must have all of the fluid in its box')
-         return
+         exit
       end do
+      call problem%tell()
    end subroutine check_box
 
    ! From here on files change: an earlier result is deleted; where the run goes on, what was written behind the checkpoint, which
@@ -199,19 +202,23 @@ contains
       if (here .and. .not. problem%raised()) call directory%look_for_foreign(problem)
       if (.not. (here .or. problem%raised())) call directory%clear(problem)
       if (.not. problem%raised() .and. (beginning%changed .or. beginning%forked)) call saving%write(state, directory, problem)
-      if (.not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
+      if (is_first() .and. .not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
+      call problem%tell()
       if (.not. problem%raised()) call state%recorder%open(scene, directory, only_check=.false., problem=problem)
       if (.not. problem%raised()) call log%open_file(directory%file(log_name), here, problem)
       if (problem%raised() .or. .not. here) return
-      call say_which_snapshots_lack(state%recorder%series%count(), directory, log)
-      call delete_file(directory%file(summary_name), ignored)
+      if (is_first()) call say_which_snapshots_lack(state%recorder%series%count(), directory, log)
+      if (is_first()) call delete_file(directory%file(summary_name), ignored)
       call directory%delete_later_snapshots(state%recorder%series%count(), problem)
       if (problem%raised()) return
-      if (state%recorder%series%count() > 0) then
+      if (.not. is_first()) then
+         continue
+      else if (state%recorder%series%count() > 0) then
          call state%recorder%series%write(directory%file(series_name), problem)
       else if (path_exists(directory%file(series_name))) then
          call delete_file(directory%file(series_name), ignored)
       end if
+      call problem%tell()
    end subroutine open_files
 
    subroutine say_which_snapshots_lack(n, directory, log)
@@ -256,10 +263,10 @@ contains
          call advance(model, state%p, state%near, state%step, scene%time%end_time, timers)
          call check_step(model, state%p, state%step, scene%time%end_time, problem)
          if (.not. problem%raised()) then
-            call stop%look(directory)
             call saving%watch(state%step%step, state%step%time, before%time)
             call timers%start(phase_output)
-            call save_if_wanted(scene, model, state, saving, stop%reason /= '', directory, saved, problem)
+            if (sorts_next(state%near, state%step)) &
+               call save_if_wanted(scene, model, state, saving, stop, directory, saved, problem)
             call timers%stop(phase_output)
             if (problem%raised() .and. problem%code == exit_files) then
                status = 'failed: output'
@@ -289,28 +296,29 @@ contains
       end do
    end subroutine main_loop
 
-   ! A checkpoint of the state `next`, if there is to be one and can be; none of a state that has failed.
+   ! A checkpoint of the state `next`, which is about to be sorted, if there is to be one; none of a state that has failed.
    subroutine save_if_wanted(scene, model, state, saving, stop, directory, saved, problem)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(run_state_t), intent(inout) :: state
       type(checkpoints_t), intent(inout) :: saving
-      logical, intent(in) :: stop             !! the run shall stop as soon as it can
-      type(result_directory_t), intent(in) :: directory
-      logical, intent(inout) :: saved         !! and now it can
+      type(stopping_t), intent(inout) :: stop
+      type(result_directory_t), intent(inout) :: directory
+      logical, intent(inout) :: saved         !! the run shall stop, and now it can
       type(failure), intent(inout) :: problem
-      logical :: now
+      logical :: wanted
 
-      now = sorts_next(state%near, state%step)
-      if (now) now = saving%wanted(scene, model, state, stop)
-      if (.not. now) return
+      call stop%look(directory)
+      call saving%look_at_clock()
+      wanted = saving%wanted(scene, model, state, stop%reason /= '')
+      if (.not. wanted) return
       call swap_states(state%p%base, state%p%next)
       call watch_balance(scene%time%balance_limit, model, state, problem)
       call swap_states(state%p%base, state%p%next)
       if (problem%raised()) return
       state%plan = plan_next(model, state%near, state%step)
       if (saving%input /= '') call saving%write(state, directory, problem)
-      saved = stop
+      saved = stop%reason /= ''
    end subroutine save_if_wanted
 
    ! All that is known of the last good state. A second failure would hide the first.

@@ -6,6 +6,7 @@ module snapshot_fields
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
+   use number_order, only: number_order_t
    use particles, only: particles_t
    use snapshot, only: snapshot_field
    implicit none
@@ -16,12 +17,12 @@ module snapshot_fields
 contains
 
    !> Fills the fields named, in the order of the particles' numbers.
-   subroutine fill_fields(names, model, p, near, slot, fields)
+   subroutine fill_fields(names, model, p, near, order, fields)
       character(*), intent(in) :: names(:)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: slot(:)              !! (n) slot of each particle
+      type(number_order_t), intent(in) :: order   !! of the particles
       type(snapshot_field), allocatable, intent(out) :: fields(:)   !! one for each name
       type(gradient_fields_t) :: gradients
       integer :: k
@@ -34,11 +35,11 @@ contains
          case ('vorticity')
             fields(k)%unit = '1/time'
             fields(k)%long_name = 'vorticity dv/dx - du/dy'
-            fields(k)%values = gradients%vorticity(slot)
+            fields(k)%values = order%sorted(gradients%vorticity)
          case ('alpha', 'delta')
-            call fill_coefficient(fields(k), model, gradients, slot)
+            call fill_coefficient(fields(k), model, gradients, order)
          case default
-            call fill_state(fields(k), model, p, slot)
+            call fill_state(fields(k), model, p, order)
          end select
       end do
    end subroutine fill_fields
@@ -52,46 +53,46 @@ contains
    end function need_gradients
 
    ! A field that is there with the particles.
-   subroutine fill_state(field, model, p, slot)
+   subroutine fill_state(field, model, p, order)
       type(snapshot_field), intent(inout) :: field   !! its name is set
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
-      integer, intent(in) :: slot(:)
+      type(number_order_t), intent(in) :: order
 
       select case (field%name)
       case ('velocity')
          field%unit = 'length/time'
          field%long_name = 'velocity of the particle'
-         allocate (field%vectors(size(slot), 2))
-         field%vectors(:, 1) = p%base%u(slot)
-         field%vectors(:, 2) = p%base%v(slot)
+         allocate (field%vectors(order%last - order%first + 1, 2))
+         field%vectors(:, 1) = order%sorted(p%base%u)
+         field%vectors(:, 2) = order%sorted(p%base%v)
       case ('pressure')
          field%unit = 'mass/(length time^2)'
          field%long_name = 'pressure, c0^2 (rho - rho0)'
-         field%values = pressure_of(model%c0, p%base%s(slot))
+         field%values = pressure_of(model%c0, order%sorted(p%base%s))
       case ('density')
          field%unit = 'mass/length^3'
          field%long_name = 'density'
-         field%values = model%rho0 + p%base%s(slot)
+         field%values = model%rho0 + order%sorted(p%base%s)
       case ('dissipation')
          field%unit = 'energy/width'
          field%long_name = 'energy dissipated by the particle since the start'
-         field%values = p%dissipated(slot)
+         field%values = order%sorted(p%dissipated)
       end select
    end subroutine fill_state
 
    ! alpha_i or delta_i; of constant coefficients the one that acts everywhere.
-   subroutine fill_coefficient(field, model, gradients, slot)
+   subroutine fill_coefficient(field, model, gradients, order)
       type(snapshot_field), intent(inout) :: field   !! its name is set
       type(model_t), intent(in) :: model
       type(gradient_fields_t), intent(in) :: gradients   !! measured if the model is dynamic
-      integer, intent(in) :: slot(:)
+      type(number_order_t), intent(in) :: order
       real(dp), allocatable :: alpha(:), delta(:)
 
       field%unit = '-'
-      allocate (alpha(size(slot)), source=model%alpha)
-      allocate (delta(size(slot)), source=model%delta)
-      if (model%dynamic) call eddy_coefficients(model, gradients%strain(slot), alpha, delta)
+      allocate (alpha(order%last - order%first + 1), source=model%alpha)
+      allocate (delta(size(alpha)), source=model%delta)
+      if (model%dynamic) call eddy_coefficients(model, order%sorted(gradients%strain), alpha, delta)
       if (field%name == 'alpha') then
          field%long_name = 'coefficient of the viscous term, viscosity included'
          if (model%dynamic) field%long_name = 'alpha_i of the dynamic model, viscosity not included'

@@ -1,6 +1,7 @@
 !> Why a run shall stop before its end: a signal, a file STOP in its directory, or max_wall_time. It can go on from a checkpoint.
 module stopping
-   use errors, only: failure
+   use communication, only: is_first
+   use errors, only: failure, text_of_any
    use file_system, only: delete_file, is_directory, path_exists
    use kinds, only: dp
    use result_directory, only: result_directory_t, stop_name
@@ -34,7 +35,7 @@ contains
       type(result_directory_t), intent(in) :: directory
       character(:), allocatable :: ignored
 
-      call delete_file(directory%file(stop_name), ignored)
+      if (is_first()) call delete_file(directory%file(stop_name), ignored)
       self%reason = ''
       self%longest = longest
       self%started = wall_seconds()
@@ -46,15 +47,24 @@ contains
    subroutine look(self, directory)
       class(stopping_t), intent(inout) :: self
       type(result_directory_t), intent(inout) :: directory
+
+      if (self%reason /= '') return
+      call find_reason(self, directory)
+      call text_of_any(self%reason)
+   end subroutine look
+
+   ! Of this process.
+   subroutine find_reason(self, directory)
+      class(stopping_t), intent(inout) :: self
+      type(result_directory_t), intent(inout) :: directory
       character(:), allocatable :: ignored
       real(dp) :: now
       logical :: asked
 
-      if (self%reason /= '') return
       now = wall_seconds()
       self%reason = self%signals%arrived()
       if (self%reason == '' .and. self%longest > 0 .and. now - self%started > self%longest) self%reason = 'max_wall_time'
-      if (self%reason /= '' .or. now - self%last_look < look_interval) return
+      if (self%reason /= '' .or. now - self%last_look < look_interval .or. .not. is_first()) return
       self%last_look = now
       call directory%keep_alive()
       asked = path_exists(directory%file(stop_name))
@@ -62,7 +72,7 @@ contains
       if (.not. asked) return
       self%reason = 'file '//stop_name
       call delete_file(directory%file(stop_name), ignored)   ! it has been seen; the next run shall not stop for it
-   end subroutine look
+   end subroutine find_reason
 
    !> Signals act as they did before; those that have come meanwhile are too late.
    subroutine finish(self)

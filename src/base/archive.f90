@@ -17,10 +17,11 @@ module archive
       procedure(one_real), deferred :: keep_real
       procedure(one_long), deferred :: keep_long
       procedure(many_reals), deferred :: keep_reals
-      procedure(many_singles), deferred :: keep_singles
+      procedure(parts_of_reals), deferred :: keep_parts
+      procedure(parts_of_singles), deferred :: keep_single_parts
       procedure :: keep_integer
       procedure :: keep_logical
-      generic :: keep => keep_real, keep_long, keep_reals, keep_singles, keep_integer, keep_logical
+      generic :: keep => keep_real, keep_long, keep_reals, keep_integer, keep_logical
    end type archive_t
 
    abstract interface
@@ -53,12 +54,23 @@ module archive
          real(dp), intent(inout), contiguous, target :: values(:)
       end subroutine many_reals
 
-      subroutine many_singles(self, name, values)
+      !> Of an array that each process has a part of, one behind the other.
+      subroutine parts_of_reals(self, name, first, total, values)
+         import :: archive_t, dp
+         class(archive_t), intent(inout) :: self
+         character(*), intent(in) :: name
+         integer, intent(in) :: first   !! of this part
+         integer, intent(in) :: total   !! of all parts
+         real(dp), intent(inout), contiguous, target :: values(:)
+      end subroutine parts_of_reals
+
+      subroutine parts_of_singles(self, name, first, total, values)
          import :: archive_t, sp
          class(archive_t), intent(inout) :: self
          character(*), intent(in) :: name
+         integer, intent(in) :: first, total
          real(sp), intent(inout), contiguous, target :: values(:)
-      end subroutine many_singles
+      end subroutine parts_of_singles
    end interface
 
 contains

@@ -4,12 +4,13 @@
 !! 64. Adding integers has no order, and sums of parts can be added to each other: any number of threads or processes gives the
 !! same bits. Source: Kulisch's accumulator; Demmel & Nguyen, IEEE Trans. Comput. 64 (2015) 2060-2070, on what it is good for.
 module exact_sum
+   use communication, only: sums_of_all
    use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
    use kinds, only: dp, i8
    implicit none
    private
 
-   public :: exact_sum_t, exact_totals
+   public :: exact_sum_t, exact_totals, add_over_processes
 
    integer, parameter :: digit_bits = 32
    integer(i8), parameter :: digit_mask = 2_i8**digit_bits - 1
@@ -160,7 +161,25 @@ contains
                    .or. ibits(digit(place/digit_bits), 0, mod(place, digit_bits)) /= 0
    end function bits_below
 
-   !> The sum of each row, with all threads.
+   !> Each sum becomes that of all processes.
+   subroutine add_over_processes(sums)
+      type(exact_sum_t), intent(inout) :: sums(:)
+      integer(i8) :: numbers(n_digits + 3, size(sums))
+      integer :: k
+
+      do k = 1, size(sums)
+         call carry_on(sums(k))
+         numbers(:, k) = [sums(k)%digit, sums(k)%infinite, sums(k)%undefined]
+      end do
+      call sums_of_all(size(numbers), numbers)
+      do k = 1, size(sums)
+         sums(k)%digit = numbers(:n_digits, k)
+         sums(k)%infinite = numbers(n_digits + 1:n_digits + 2, k)
+         sums(k)%undefined = numbers(n_digits + 3, k)
+      end do
+   end subroutine add_over_processes
+
+   !> The sum of each row, with all threads of all processes.
    function exact_totals(table) result(totals)
       real(dp), intent(in) :: table(:, :)   !! (sums, summands)
       real(dp) :: totals(size(table, 1))
@@ -182,6 +201,7 @@ contains
       end do
       !$omp end critical
       !$omp end parallel
+      call add_over_processes(all)
       do k = 1, size(totals)
          totals(k) = all(k)%value()
       end do

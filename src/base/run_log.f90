@@ -4,6 +4,7 @@
 module run_log
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use communication, only: is_first
    use errors, only: exit_files, failure
    use file_system, only: file_bytes, flush_unit, secure_unit, seek_end
    use growing_text, only: growing_text_t
@@ -86,6 +87,10 @@ contains
       character(:), allocatable :: before
       integer :: status
 
+      if (.not. is_first()) then
+         call problem%tell()
+         return
+      end if
       before = self%early%text()
       self%path = trim(path)
       self%bytes = 0
@@ -96,10 +101,11 @@ contains
          call seek_end(self%unit)
          if (len(before) > 0) call to_file(self, before(:len(before) - 1))
          if (self%blind) call complain_of_blindness(self)
-         return
+      else
+         self%unit = no_unit
+         call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))
       end if
-      self%unit = no_unit
-      call problem%raise(exit_files, "cannot write the log '"//trim(path)//"': "//trim(message))
+      call problem%tell()
    end subroutine open_file
 
    !> Writes one line, or several separated by new_line, to the screen and the file.
@@ -220,13 +226,15 @@ contains
       integer :: ignored
 
       call clear_transient(self)
-      if (self%unit == no_unit) return
-      call secure_unit(self%unit, self%bytes, reason)
-      if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
-      close (self%unit, iostat=ignored)
-      self%unit = no_unit
-      if (.not. (present(problem) .and. allocated(self%lost))) return
-      call problem%raise(exit_files, "cannot write the log '"//self%path//"': "//self%lost)
+      if (self%unit /= no_unit) then
+         call secure_unit(self%unit, self%bytes, reason)
+         if (reason /= '' .and. .not. allocated(self%lost)) self%lost = reason
+         close (self%unit, iostat=ignored)
+         self%unit = no_unit
+      end if
+      if (.not. present(problem)) return
+      if (allocated(self%lost)) call problem%raise(exit_files, "cannot write the log '"//self%path//"': "//self%lost)
+      call problem%tell()
    end subroutine close_log
 
    !> True when transient lines are shown.
@@ -265,7 +273,7 @@ contains
       type(failure) :: problem
       integer :: ignored
 
-      if (self%blind) return
+      if (self%blind .or. .not. is_first()) return
       write (output_unit, '(a)', advance='no', iostat=ignored) text
       call check_screen(problem)
       self%blind = problem%raised()
@@ -284,6 +292,7 @@ contains
       character(*), intent(in) :: text
       integer :: ignored
 
+      if (.not. is_first()) return
       write (error_unit, '(a)', iostat=ignored) text
       flush (error_unit, iostat=ignored)
    end subroutine complain
@@ -295,6 +304,7 @@ contains
       character(:), allocatable :: reason
       integer :: ignored
 
+      if (.not. is_first()) return
       if (self%unit == no_unit) then
          call self%early%add_line(text)
          return

@@ -2,6 +2,7 @@
 module standard_output
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_intptr_t, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use communication, only: is_first
    use errors, only: exit_files, failure
    use system_words, only: forget_reason, last_reason, reason_of
    implicit none
@@ -47,6 +48,7 @@ contains
       type(failure), intent(inout) :: problem   !! exit_files
       integer(c_size_t) :: done, taken
 
+      if (.not. is_first()) return
       flush (output_unit)
       done = 0
       do while (done < len(text))

@@ -1,5 +1,6 @@
 !> How many threads are worth their while.
 module threads
+   use communication, only: n_processes
    use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_set_num_threads
    use text, only: to_text
    implicit none
@@ -16,11 +17,11 @@ contains
 
    !> Lets the program use no more threads than have enough particles each. What is computed does not depend on it.
    subroutine limit_threads(particles, before)
-      integer, intent(in) :: particles
+      integer, intent(in) :: particles           !! of all processes
       integer, intent(out), optional :: before   !! threads that there were, for omp_set_num_threads
 
       if (present(before)) before = omp_get_max_threads()
-      call omp_set_num_threads(max(1, min(omp_get_max_threads(), particles/least_per_thread)))
+      call omp_set_num_threads(max(1, min(omp_get_max_threads(), particles/(least_per_thread*n_processes()))))
    end subroutine limit_threads
 
    !> Lets the program use one thread a processor if absurdly many are asked for: they would wait for each other, or cannot be made.

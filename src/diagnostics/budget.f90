@@ -6,6 +6,7 @@
 module budget
    use archive, only: archive_t
    use box, only: bottom_wall, is_wall, left_wall, right_wall
+   use communication, only: largest_of_all
    use energy, only: energies_t, measure_energies
    use exact_sum, only: exact_totals
    use kinds, only: dp
@@ -88,7 +89,7 @@ contains
       type(particles_t), intent(in) :: p
       real(dp), intent(in) :: width   !! of the tank
       real(dp), parameter :: least_share = 1.0e-3_dp
-      real(dp) :: mass
+      real(dp) :: mass, depth(1)   ! of the lowest particle, below y = 0
 
       self%has = model%terms()
       call measure_energies(model, p, self%initial)
@@ -97,7 +98,9 @@ contains
       mass = fluid_mass(p)
       self%normaliser = self%initial%total()
       self%scale = other_scale(model)
-      if (model%gravity > 0) self%normaliser = self%normaliser - mass*model%gravity*minval(p%base%y(1:p%n_own))
+      depth = maxval(-p%base%y(1:p%n_own), mask=p%id(1:p%n_own) > 0)
+      call largest_of_all(1, depth)
+      if (model%gravity > 0) self%normaliser = self%normaliser + mass*model%gravity*depth(1)
       if (self%has_rest) then
          call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
          self%rest%potential = self%rest%potential + mass*model%gravity*model%box%at(bottom_wall)

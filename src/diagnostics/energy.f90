@@ -3,7 +3,7 @@
 !! Source: eqs. 10-13. E_K + E_P + E_C + Q_alpha + Q_delta - W_s - W_f stays what it was at t = 0 in the semi-discrete
 !! system; what is left is the error of the time integration.
 module energy
-   use exact_sum, only: exact_sum_t
+   use exact_sum, only: add_over_processes, exact_sum_t
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
@@ -63,6 +63,7 @@ contains
       end do
       !$omp end critical
       !$omp end parallel
+      call add_over_processes(sums)
       energies%kinetic = sums(1)%value()
       energies%potential = sums(2)%value()
       energies%elastic = model%c0**2*sums(3)%value()

@@ -4,6 +4,8 @@
 !! of a surge. A point is in the fluid if sum_j W V_j >= 1/2, its value at a straight free surface; so single
 !! particles of spray do not count.
 module gauges
+   use communication, only: largest_of_all
+   use exact_sum, only: add_over_processes, exact_sum_t
    use kinds, only: dp
    use model, only: model_t
    use neighbours, only: neighbours_t
@@ -47,7 +49,7 @@ contains
 
    !> The largest ('end') or least ('start') coordinate of the fluid on the line, or how much of the line is in it
    !! ('wetted'), in the base state. On a dry line the end is where the line begins, and the start where it ends.
-   pure real(dp) function measure_gauge(model, p, near, gauge) result(value)
+   real(dp) function measure_gauge(model, p, near, gauge) result(value)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
@@ -94,55 +96,85 @@ contains
    end function next_point
 
    !> Where the fluid begins on the way from one end of the line to the other; `to` on a dry line.
-   pure real(dp) function first_wet(model, p, near, gauge, from, to) result(place)
+   real(dp) function first_wet(model, p, near, gauge, from, to) result(place)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(gauge_t), intent(in) :: gauge
       real(dp), intent(in) :: from, to
       type(walk_t) :: walk
-      real(dp) :: previous, here, k
+      real(dp) :: k, here, first(1), values(2)   ! values: at the first point in the fluid, and at the one before it
 
       walk = new_walk(model, p, gauge, from, to)
-      here = volume_at(model, p, near, gauge, from)
-      place = from
-      if (here >= at_surface) return
-      k = next_point(walk, 0.0_dp, here)
+      first = walk%n + 1
+      k = 0
       do while (k <= walk%n)
-         previous = here
-         here = volume_at(model, p, near, gauge, from + k*walk%step)
+         here = 0
+         if (is_mine(near, gauge, from + k*walk%step)) here = volume_at(model, p, near, gauge, from + k*walk%step)
          if (here >= at_surface) then
-            place = from + walk%step*(k - (here - at_surface)/(here - previous))
-            return
+            first = k
+            exit
          end if
          k = next_point(walk, k, here)
       end do
+      first = -first
+      call largest_of_all(1, first)   ! of all processes, each of which knows some points
+      k = -first(1)
       place = to
+      if (k > walk%n) return
+      values = [volume_if_mine(k), volume_if_mine(k - 1)]
+      call largest_of_all(2, values)
+      place = from
+      if (k > 0) place = from + walk%step*(k - (values(1) - at_surface)/(values(1) - values(2)))
+
+   contains
+
+      pure real(dp) function volume_if_mine(k) result(volume)
+         real(dp), intent(in) :: k
+
+         volume = 0
+         if (is_mine(near, gauge, from + k*walk%step)) volume = volume_at(model, p, near, gauge, from + k*walk%step)
+      end function volume_if_mine
+
    end function first_wet
 
+   ! Whether this process has all that is near a point of the line.
+   pure logical function is_mine(near, gauge, s)
+      type(neighbours_t), intent(in) :: near
+      type(gauge_t), intent(in) :: gauge
+      real(dp), intent(in) :: s   ! its coordinate along the line
+
+      is_mine = near%computes(merge(s, gauge%at, gauge%along == 1))
+   end function is_mine
+
    !> The sum is taken as linear between the points of the line.
-   pure real(dp) function wetted_length(model, p, near, gauge) result(length)
+   real(dp) function wetted_length(model, p, near, gauge) result(length)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(gauge_t), intent(in) :: gauge
       type(walk_t) :: walk
+      type(exact_sum_t) :: sums(1)
       real(dp) :: previous, here, k
 
       walk = new_walk(model, p, gauge, gauge%from, gauge%to)
-      length = 0
       here = volume_at(model, p, near, gauge, gauge%from)
       k = next_point(walk, 0.0_dp, here)
       do while (k <= walk%n)
          previous = here
          here = volume_at(model, p, near, gauge, gauge%from + k*walk%step)
-         if (min(previous, here) >= at_surface) then
-            length = length + walk%step
-         else if (max(previous, here) > at_surface) then
-            length = length + walk%step*(max(previous, here) - at_surface)/abs(here - previous)
+         ! Pieces of the line are those of who has their end.
+         if (is_mine(near, gauge, gauge%from + k*walk%step)) then
+            if (min(previous, here) >= at_surface) then
+               call sums(1)%add(walk%step)
+            else if (max(previous, here) > at_surface) then
+               call sums(1)%add(walk%step*(max(previous, here) - at_surface)/abs(here - previous))
+            end if
          end if
          k = next_point(walk, k, here)
       end do
+      call add_over_processes(sums)
+      length = sums(1)%value()
    end function wetted_length
 
    !> sum_j W V_j at a place on the line.

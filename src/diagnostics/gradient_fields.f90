@@ -4,6 +4,7 @@
 !! du_a/dx_b = sum_j (u_j - u_i)_a (L_i grad W)_b V_j is exact for velocities linear in x and y; particles whose
 !! matrix L is singular have none.
 module gradient_fields
+   use communication, only: largest_of_all
    use eddy, only: eddy_coefficients, strain_rate, velocity_gradient, velocity_gradient_t
    use exact_sum, only: exact_totals
    use first_sums, only: first_sums_t, pass_dynamic, sum_first
@@ -86,7 +87,7 @@ contains
       type(gradient_fields_t), intent(in) :: fields
       type(gradient_numbers_t), intent(out) :: numbers
       real(dp), allocatable :: table(:, :)   ! of each group
-      real(dp) :: totals(3), least(2), largest(2), coefficients(2)   ! of alpha_i and delta_i
+      real(dp) :: extremes(4), totals(3), least(2), largest(2), coefficients(2)   ! of alpha_i and delta_i
       integer :: g, i, n_groups
 
       n_groups = p%n_own/group_slots
@@ -106,6 +107,10 @@ contains
       end do
       !$omp end parallel do
       totals = exact_totals(table)
+      extremes = [-least, largest]
+      call largest_of_all(4, extremes)
+      least = -extremes(1:2)
+      largest = extremes(3:4)
       numbers%enstrophy = totals(1)
       numbers%alpha = extent_t(least(1), totals(2)/p%n, largest(1))
       numbers%delta = extent_t(least(2), totals(3)/p%n, largest(2))

@@ -3,6 +3,7 @@
 !! A sensor of diameter D is a disc on the wall; in two dimensions that is an average over a segment, weighted by the
 !! disc's chord. Pressure at a point is interpolated with the kernel over particles and images (Shepard).
 module probes
+   use communication, only: largest_of_all
    use box, only: bottom_wall, is_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
@@ -13,7 +14,7 @@ module probes
    implicit none
    private
 
-   public :: sensor_t, new_sensor, measure_sensor
+   public :: sensor_t, new_sensor, measure_sensors
 
    !> A disc or segment on a wall as quadrature points.
    type :: sensor_t
@@ -55,19 +56,38 @@ contains
       end do
    end function new_sensor
 
-   !> Pressure on the sensor in the base state; dry parts count as 0.
-   pure real(dp) function measure_sensor(model, p, near, sensor) result(pressure)
+   !> Pressure on each sensor in the base state; dry parts count as 0.
+   function measure_sensors(model, p, near, sensors) result(pressure)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
-      type(sensor_t), intent(in) :: sensor
-      integer :: k
+      type(sensor_t), intent(in) :: sensors(:)
+      real(dp) :: pressure(size(sensors))
+      real(dp), allocatable :: values(:)   ! at all points
+      integer :: k, m, n
 
-      pressure = 0
-      do k = 1, size(sensor%x)
-         pressure = pressure + sensor%weight(k)*pressure_near(model, p, near, sensor%x(k), sensor%y(k))
+      n = sum([(size(sensors(k)%x), k=1, size(sensors))])
+      allocate (values(n))
+      n = 0
+      do k = 1, size(sensors)
+         do m = 1, size(sensors(k)%x)
+            n = n + 1
+            values(n) = -huge(1.0_dp)
+            associate (x => sensors(k)%x(m), y => sensors(k)%y(m))
+               if (near%computes(x)) values(n) = pressure_near(model, p, near, x, y)
+            end associate
+         end do
       end do
-   end function measure_sensor
+      call largest_of_all(n, values)   ! each is known to one process
+      n = 0
+      do k = 1, size(sensors)
+         pressure(k) = 0
+         do m = 1, size(sensors(k)%x)
+            n = n + 1
+            pressure(k) = pressure(k) + sensors(k)%weight(m)*values(n)
+         end do
+      end do
+   end function measure_sensors
 
    !> sum_j p_j W V_j / max(sum_j W V_j, 1/2) at a point: the Shepard mean inside the fluid. Where the sum is less than at a
    !! free surface the point is outside, and what is missing counts as dry. So the pressure of a few particles that

@@ -5,9 +5,11 @@ module checkpoint_file
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_ptr, c_size_t
    use archive, only: archive_t
    use build_info, only: git_id, version
-   use errors, only: failure
+   use communication, only: is_first
+   use errors, only: failure, text_of_any
    use hdf5, only: h5aclose_f, h5aopen_by_name_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5dopen_f, h5dread_f, &
-      h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5sclose_f, h5sget_simple_extent_npoints_f, h5t_native_double, h5t_native_real, &
+      h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5s_select_set_f, h5sclose_f, h5screate_simple_f, &
+      h5sget_simple_extent_npoints_f, h5sselect_hyperslab_f, h5t_native_double, h5t_native_real, &
       h5t_std_i64le, h5tclose_f, h5tget_size_f, hid_t, hsize_t
    use hdf5_writer, only: hdf5_writer_t, open_library
    use kinds, only: dp, i8, sp
@@ -45,7 +47,8 @@ module checkpoint_file
       procedure :: keep_real
       procedure :: keep_long
       procedure :: keep_reals
-      procedure :: keep_singles
+      procedure :: keep_parts
+      procedure :: keep_single_parts
    end type checkpoint_file_t
 
 contains
@@ -97,19 +100,27 @@ contains
       self%path = path
       self%lacks = ''
       self%group = '/'
-      reason = broken_seal(path)
+      reason = ''
+      if (is_first()) reason = broken_seal(path)
+      call text_of_any(reason)
       if (reason /= '') return
       call open_library(status)
       if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, self%file, status)
       if (status < 0) then
          self%file = -1
          reason = 'HDF5 cannot open it'
+      end if
+      call text_of_any(reason)
+      if (reason /= '') then
+         call self%close()
          return
       end if
       number = 0
       call self%keep('format', number)
-      if (number /= format) then
-         reason = 'its format is '//to_text(number)//', and this version knows '//to_text(format)
+      if (number /= format) reason = &
+         'its format is '//to_text(number)//', and this version knows '//to_text(format)
+      call text_of_any(reason)
+      if (reason /= '') then
          call self%close()
          return
       end if
@@ -129,6 +140,7 @@ contains
 
       reason = ''
       if (self%lacks /= '') reason = "it has no '"//self%lacks//"' of the kind that is needed"
+      call text_of_any(reason)
    end function missing
 
    subroutine close_checkpoint(self)
@@ -183,23 +195,37 @@ contains
       real(dp), intent(inout), contiguous, target :: values(:)
 
       if (self%reading) then
-         call read_array(self, name, h5t_native_double, size(values, kind=hsize_t), c_loc(values))
+         call read_array(self, name, h5t_native_double, 1, size(values), size(values), c_loc(values))
       else
-         call self%writer%put_reals(self%group//name, values, single=.false.)
+         call self%writer%put_reals(self%group//name, values, single=.false., in_parts=.false.)
       end if
    end subroutine keep_reals
 
-   subroutine keep_singles(self, name, values)
+   subroutine keep_parts(self, name, first, total, values)
       class(checkpoint_file_t), intent(inout) :: self
       character(*), intent(in) :: name
+      integer, intent(in) :: first, total
+      real(dp), intent(inout), contiguous, target :: values(:)
+
+      if (self%reading) then
+         call read_array(self, name, h5t_native_double, first, size(values), total, c_loc(values))
+      else
+         call self%writer%put_reals(self%group//name, values, single=.false., in_parts=.true.)
+      end if
+   end subroutine keep_parts
+
+   subroutine keep_single_parts(self, name, first, total, values)
+      class(checkpoint_file_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer, intent(in) :: first, total
       real(sp), intent(inout), contiguous, target :: values(:)
 
       if (self%reading) then
-         call read_array(self, name, h5t_native_real, size(values, kind=hsize_t), c_loc(values))
+         call read_array(self, name, h5t_native_real, first, size(values), total, c_loc(values))
       else
          call self%writer%put_singles(self%group//name, values)
       end if
-   end subroutine keep_singles
+   end subroutine keep_single_parts
 
    subroutine read_attribute(self, name, kind, start)
       class(checkpoint_file_t), intent(inout) :: self
@@ -220,14 +246,14 @@ contains
       if (status < 0) self%lacks = self%group//name
    end subroutine read_attribute
 
-   subroutine read_array(self, name, kind, n, start)
+   subroutine read_array(self, name, kind, first, n, total, start)
       class(checkpoint_file_t), intent(inout) :: self
       character(*), intent(in) :: name
       integer(hid_t), intent(in) :: kind
-      integer(hsize_t), intent(in) :: n   !! values that are wanted
+      integer, intent(in) :: first, n, total   !! value that is wanted first, how many, and how many there must be
       type(c_ptr), intent(in) :: start
       type(c_ptr) :: place
-      integer(hid_t) :: dataset, space
+      integer(hid_t) :: dataset, memory, space
       integer(hsize_t) :: there
       integer :: ignored, status
 
@@ -238,8 +264,15 @@ contains
          call h5dget_space_f(dataset, space, status)
          call h5sget_simple_extent_npoints_f(space, there, status)
          call h5sclose_f(space, ignored)
-         if (there /= n) status = -1
-         if (status >= 0 .and. n > 0) call h5dread_f(dataset, kind, place, status)
+         if (there /= total) status = -1
+         if (status >= 0 .and. n > 0) then
+            call h5dget_space_f(dataset, space, status)
+            call h5sselect_hyperslab_f(space, h5s_select_set_f, [first - 1_hsize_t], [int(n, hsize_t)], status)
+            call h5screate_simple_f(1, [int(n, hsize_t)], memory, status)
+            call h5dread_f(dataset, kind, place, status, memory, space)
+            call h5sclose_f(memory, ignored)
+            call h5sclose_f(space, ignored)
+         end if
          call h5dclose_f(dataset, ignored)
       end if
       if (status < 0) self%lacks = self%group//name

@@ -5,9 +5,11 @@
 module hdf5_writer
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
+   use communication, only: is_first, n_processes
    use errors, only: exit_files, failure
    use file_system, only: delete_file, partial_path, publish, secure_path
-   use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dont_atexit_f, h5dwrite_f, &
+   use hdf5, only: h5acreate_by_name_f, h5aclose_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dget_space_f, &
+      h5dont_atexit_f, h5dwrite_f, h5s_select_set_f, h5sselect_hyperslab_f, &
       h5eset_auto_f, &
       h5f_acc_trunc_f, h5fclose_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5s_scalar_f, h5sclose_f, h5screate_f, &
       h5screate_simple_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_native_real, h5t_std_i64le, &
@@ -16,6 +18,7 @@ module hdf5_writer
       h5pclose_f, h5pcreate_f, h5pset_chunk_f, h5pset_fletcher32_f, &
       h5pset_libver_bounds_f, h5pset_obj_track_times_f, h5t_fortran_s1, hid_t, hsize_t
    use kinds, only: dp, i8, sp
+   use row_parts, only: rows_before, send_rows, take_rows
    use sealed_file, only: seal_bytes, seal_file
    use system_words, only: forget_reason, last_reason
    implicit none
@@ -74,7 +77,8 @@ contains
       integer :: status
 
       self%path = trim(path)
-      self%failed = .false.
+      self%failed = .not. is_first()   ! which alone writes
+      if (self%failed) return
       call forget_reason()
       call open_library(status)
       call note(self, status, 'the HDF5 library')
@@ -126,18 +130,19 @@ contains
    end subroutine timeless
 
    !> Writes a real array in single or double precision.
-   subroutine put_reals(self, name, values, single)
+   subroutine put_reals(self, name, values, single, in_parts)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: name
       real(dp), intent(in), contiguous, target :: values(:)   !! (n)
       logical, intent(in) :: single
+      logical, intent(in) :: in_parts   !! each process has a part; else all have the same
       real(sp), allocatable, target :: rounded(:)
 
       if (single) then
          rounded = real(values, sp)
-         call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(rounded))
+         call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(rounded), 4, in_parts)
       else
-         call put(self, name, h5t_native_double, shape(values, hsize_t), c_loc(values))
+         call put(self, name, h5t_native_double, shape(values, hsize_t), c_loc(values), 8, in_parts)
       end if
    end subroutine put_reals
 
@@ -158,13 +163,13 @@ contains
          do i = 1, size(x)
             rounded(:, i) = [real(x(i), sp), real(y(i), sp), 0.0_sp]
          end do
-         call put(self, name, h5t_native_real, extent, c_loc(rounded))
+         call put(self, name, h5t_native_real, extent, c_loc(rounded), 3*4, .true.)
       else
          allocate (rows(3, size(x)))
          do i = 1, size(x)
             rows(:, i) = [x(i), y(i), 0.0_dp]
          end do
-         call put(self, name, h5t_native_double, extent, c_loc(rows))
+         call put(self, name, h5t_native_double, extent, c_loc(rows), 3*8, .true.)
       end if
    end subroutine put_vectors
 
@@ -173,7 +178,7 @@ contains
       character(*), intent(in) :: name
       real(sp), intent(in), contiguous, target :: values(:)   !! (n)
 
-      call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(values))
+      call put(self, name, h5t_native_real, shape(values, hsize_t), c_loc(values), 4, .true.)
    end subroutine put_singles
 
    subroutine put_integers(self, name, values)
@@ -181,15 +186,16 @@ contains
       character(*), intent(in) :: name
       integer, intent(in), contiguous, target :: values(:)   !! (n)
 
-      call put(self, name, h5t_native_integer, shape(values, hsize_t), c_loc(values))
+      call put(self, name, h5t_native_integer, shape(values, hsize_t), c_loc(values), 4, .true.)
    end subroutine put_integers
 
-   subroutine put_longs(self, name, values)
+   subroutine put_longs(self, name, values, in_parts)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: name
       integer(i8), intent(in), contiguous, target :: values(:)   !! (n)
+      logical, intent(in) :: in_parts   !! as above
 
-      call put(self, name, h5t_std_i64le, shape(values, hsize_t), c_loc(values))
+      call put(self, name, h5t_std_i64le, shape(values, hsize_t), c_loc(values), 8, in_parts)
    end subroutine put_longs
 
    !> Writes small numbers as unsigned bytes.
@@ -198,7 +204,7 @@ contains
       character(*), intent(in) :: name
       integer(int8), intent(in), contiguous, target :: values(:)   !! (n) 0 to 127
 
-      call put(self, name, h5t_std_u8le, shape(values, hsize_t), c_loc(values))
+      call put(self, name, h5t_std_u8le, shape(values, hsize_t), c_loc(values), 1, .true.)
    end subroutine put_bytes
 
    !> Writes a text of any length but 0, as an array of one string.
@@ -217,7 +223,7 @@ contains
       call h5tcopy_f(h5t_fortran_s1, string, status)
       call h5tset_cset_f(string, h5t_cset_utf8_f, status)
       call h5tset_size_f(string, len(value, kind(0_hsize_t)), status)
-      call put(self, name, string, [1_hsize_t], c_loc(bytes))
+      call put(self, name, string, [1_hsize_t], c_loc(bytes), len(value), .false.)
       call h5tclose_f(string, status)
    end subroutine put_text
 
@@ -303,6 +309,10 @@ contains
       character(:), allocatable :: ignored
       integer :: status
 
+      if (.not. is_first()) then
+         call problem%tell()
+         return
+      end if
       if (self%file >= 0) then
          call h5fclose_f(self%file, status)
          call note(self, status, 'the end of the file')
@@ -311,12 +321,12 @@ contains
       if (allocated(self%seal) .and. .not. self%failed) call close_seal(self)
       if (.not. self%failed) then
          call publish(self%path, problem)
-         if (.not. problem%raised()) return
       else
          call problem%raise(exit_files, "cannot write '"//self%path//"' (at "//self%failed_at// &
             '): '//self%reason)
       end if
-      call delete_file(partial_path(self%path), ignored)
+      if (problem%raised()) call delete_file(partial_path(self%path), ignored)
+      call problem%tell()
    end subroutine finish
 
    ! The checksum, and all of the file on the disk.
@@ -335,47 +345,111 @@ contains
    end subroutine close_seal
 
    !> Writes one dataset without compression, which would take longer than the step.
-   subroutine put(self, name, kind, extent, address)
+   !!
+   !! Where each process has a part of its rows they follow each other; the first process asks for them chunk by chunk.
+   subroutine put(self, name, kind, extent, address, row_bytes, in_parts)
       class(hdf5_writer_t), intent(inout) :: self
       character(*), intent(in) :: name
       integer(hid_t), intent(in) :: kind         !! type in memory and in the file
-      integer(hsize_t), intent(in) :: extent(:)
+      integer(hsize_t), intent(in) :: extent(:)  !! of what this process has
       type(c_ptr), intent(in) :: address
+      integer, intent(in) :: row_bytes           !! bytes of a row
+      logical, intent(in) :: in_parts            !! each process has a part of the rows
+      integer(i8), allocatable :: before(:)      ! (0:processes) rows before those of a process
+      integer(hsize_t) :: whole(size(extent)), rows(size(extent))
       integer(hid_t) :: space, dataset, properties
       integer :: ignored, status
 
-      if (self%failed) return
-      call h5screate_simple_f(size(extent), extent, space, status)
-      call note(self, status, name)
-      call timeless(self, h5p_dataset_create_f, properties, name)
-      if (all(extent > 0)) call part(self, properties, extent)
-      call h5dcreate_f(self%file, name, kind, space, dataset, status, properties)
-      call note(self, status, name)
-      if (status >= 0) then
-         if (all(extent > 0)) call h5dwrite_f(dataset, kind, address, status)
+      whole = extent
+      if (in_parts) then
+         before = rows_before(int(extent(size(extent)), i8))
+         whole(size(extent)) = before(ubound(before, 1))
+      end if
+      rows = chunk_of(whole)
+      if (.not. is_first()) then
+         if (in_parts) call send_rows(before, rows(size(extent)), row_bytes, address)
+         return
+      end if
+      dataset = -1
+      if (.not. self%failed) then
+         call h5screate_simple_f(size(extent), whole, space, status)
          call note(self, status, name)
+         call timeless(self, h5p_dataset_create_f, properties, name)
+         if (all(whole > 0)) call part(self, properties, rows)
+         call h5dcreate_f(self%file, name, kind, space, dataset, status, properties)
+         call note(self, status, name)
+         call h5pclose_f(properties, ignored)
+         call h5sclose_f(space, ignored)
+      end if
+      if (in_parts .and. n_processes() > 1) then
+         call write_rows(self, name, dataset, kind, whole, rows, before, row_bytes, address)
+      else if (all(whole > 0) .and. .not. self%failed) then
+         call h5dwrite_f(dataset, kind, address, status)
+         call note(self, status, name)
+      end if
+      if (dataset >= 0) then
          call h5dclose_f(dataset, status)
          call note(self, status, name)
       end if
-      call h5pclose_f(properties, ignored)
-      call h5sclose_f(space, ignored)
    end subroutine put
 
-   ! Parts of a dataset with a checksum each: a bit that flips on the disk is not taken for a number.
-   subroutine part(self, properties, extent)
+   ! Of the first process: all rows, chunk by chunk. What was sent is taken even if nothing can be written any more.
+   subroutine write_rows(self, name, dataset, kind, whole, rows, before, row_bytes, address)
       class(hdf5_writer_t), intent(inout) :: self
-      integer(hid_t), intent(in) :: properties
+      character(*), intent(in) :: name
+      integer(hid_t), intent(in) :: dataset, kind
+      integer(hsize_t), intent(in) :: whole(:), rows(:)   !! extents of the dataset and of a chunk
+      integer(i8), intent(in) :: before(0:)
+      integer, intent(in) :: row_bytes
+      type(c_ptr), intent(in) :: address
+      integer(int8), allocatable, target :: chunk(:)
+      integer(hsize_t) :: offset(size(whole)), here(size(whole))
+      integer(hid_t) :: memory, space
+      type(c_ptr) :: start_of_chunk
+      integer(i8) :: start
+      integer :: ignored, status
+
+      allocate (chunk(rows(size(rows))*row_bytes))
+      do start = 0, whole(size(whole)) - 1, rows(size(rows))
+         here = whole
+         here(size(here)) = min(rows(size(rows)), whole(size(whole)) - start)
+         call take_rows(before, start, here(size(here)), row_bytes, address, chunk)
+         if (self%failed) cycle
+         offset = 0
+         offset(size(offset)) = start
+         call h5screate_simple_f(size(here), here, memory, status)
+         call h5dget_space_f(dataset, space, status)
+         call h5sselect_hyperslab_f(space, h5s_select_set_f, offset, here, status)
+         start_of_chunk = c_loc(chunk)
+         call h5dwrite_f(dataset, kind, start_of_chunk, status, memory, space)
+         call note(self, status, name)
+         call h5sclose_f(memory, ignored)
+         call h5sclose_f(space, ignored)
+      end do
+   end subroutine write_rows
+
+   ! Rows of a dataset that are kept together: a million at most.
+   pure function chunk_of(extent) result(rows)
       integer(hsize_t), intent(in) :: extent(:)
+      integer(hsize_t) :: rows(size(extent))
       integer(hsize_t), parameter :: most_rows = 1000000
-      integer(hsize_t) :: rows(size(extent)), parts
-      integer :: status
+      integer(hsize_t) :: parts
 
       rows = extent
       associate (n => extent(size(extent)))
-         parts = (n + most_rows - 1)/most_rows
-         rows(size(extent)) = (n + parts - 1)/parts
+         parts = max(1_hsize_t, (n + most_rows - 1)/most_rows)
+         rows(size(extent)) = max(1_hsize_t, (n + parts - 1)/parts)
       end associate
-      call h5pset_chunk_f(properties, size(extent), rows, status)
+   end function chunk_of
+
+   ! Parts of a dataset with a checksum each: a bit that flips on the disk is not taken for a number.
+   subroutine part(self, properties, rows)
+      class(hdf5_writer_t), intent(inout) :: self
+      integer(hid_t), intent(in) :: properties
+      integer(hsize_t), intent(in) :: rows(:)   !! of a part
+      integer :: status
+
+      call h5pset_chunk_f(properties, size(rows), rows, status)
       call note(self, status, 'the parts of a dataset')
       call h5pset_fletcher32_f(properties, status)
       call note(self, status, 'the parts of a dataset')

@@ -1,6 +1,7 @@
 !> The directory a run writes to: made if need be, never mixed with another run's results.
 module result_directory
    use directory_lock, only: directory_lock_t
+   use communication, only: is_first
    use errors, only: exit_files, exit_input, failure
    use file_system, only: delete_file, file_bytes, find_files, is_directory, is_writable, longest_path, make_directory, &
       path_exists, remove_directory
@@ -74,12 +75,21 @@ contains
       character(*), intent(in) :: path
       logical, intent(in) :: overwrite          !! an earlier result may be deleted, by `clear`
       type(failure), intent(inout) :: problem   !! exit_input: holds a result, or another run; exit_files: cannot be used
-      character(:), allocatable :: reason
 
       self%path = without_slashes(path)
       self%cleared = .false.
       if (allocated(self%made)) deallocate (self%made)
       allocate (self%made(0))
+      if (is_first()) call take(self, overwrite, problem)
+      call problem%tell()
+   end subroutine prepare
+
+   subroutine take(self, overwrite, problem)
+      class(result_directory_t), intent(inout) :: self
+      logical, intent(in) :: overwrite
+      type(failure), intent(inout) :: problem
+      character(:), allocatable :: reason
+
       if (.not. path_exists(self%path)) call make_with_parents(self, problem)
       if (problem%raised()) then
          call self%discard_if_empty()
@@ -95,7 +105,7 @@ contains
          if (size(self%made) == 0) call look_at_earlier_result(self%path, overwrite, problem)
          if (problem%raised()) call self%release()
       end if
-   end subroutine prepare
+   end subroutine take
 
    !> Takes the directory of a run that shall go on, for this process alone unless it is only read. Changes nothing.
    subroutine reopen(self, path, only_read, problem)
@@ -108,15 +118,18 @@ contains
       self%path = without_slashes(path)
       self%cleared = .false.
       if (allocated(self%made)) deallocate (self%made)
-      if (.not. is_directory(self%path)) then
+      if (.not. is_first()) then
+         continue   ! as the first one finds it
+      else if (.not. is_directory(self%path)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': it is not a directory that can be read")
       else if (only_read) then
-         return
+         continue
       else if (.not. is_writable(self%path, reason)) then
          call problem%raise(exit_files, "cannot go on with '"//self%path//"': "//reason)
       else
          call self%lock%acquire(self%path, lock_name, problem)
       end if
+      call problem%tell()
    end subroutine reopen
 
    !> Deletes an earlier result's files, now that the new run can start.
@@ -125,7 +138,8 @@ contains
       type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
 
       self%cleared = .true.
-      if (size(self%made) == 0) call delete_own_files(self%path, problem)
+      if (size(self%made) == 0 .and. is_first()) call delete_own_files(self%path, problem)
+      call problem%tell()
    end subroutine clear
 
    !> Gives the directory free, as the last thing.
@@ -147,7 +161,8 @@ contains
       class(result_directory_t), intent(in) :: self
       type(failure), intent(inout) :: problem   !! exit_input
 
-      call find_foreign(self%path, .true., problem)
+      if (is_first()) call find_foreign(self%path, .true., problem)
+      call problem%tell()
    end subroutine look_for_foreign
 
    !> Deletes the snapshots from a number on, and what was being written when a run was broken off.
@@ -160,6 +175,7 @@ contains
       integer :: i, k
 
       do i = 1, size(own_files)
+         if (.not. is_first()) exit
          if (index(own_files(i), '.partial') == 0 .and. own_files(i) /= any_snapshot) cycle
          call find_files(self%path, trim(own_files(i)), found)
          do k = 1, size(found)
@@ -170,6 +186,7 @@ contains
             if (len(reason) > 0) call problem%raise(exit_files, "cannot delete '"//trim(found(k))//"': "//reason)
          end do
       end do
+      call problem%tell()
    end subroutine delete_later_snapshots
 
    !> The path of a file in this directory.
@@ -205,7 +222,8 @@ contains
       class(result_directory_t), intent(inout) :: self
       type(failure), intent(inout) :: problem   !! exit_files: something cannot be deleted
 
-      if (self%cleared) call delete_own_files(self%path, problem)
+      if (self%cleared .and. is_first()) call delete_own_files(self%path, problem)
+      call problem%tell()
       call self%release()
       call self%discard_if_empty()
    end subroutine discard

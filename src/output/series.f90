@@ -1,6 +1,7 @@
 !> ParaView's file series: which snapshot file belongs to which time.
 module series
    use archive, only: archive_t
+   use communication, only: is_first
    use errors, only: failure
    use file_system, only: write_whole_file
    use growing_text, only: growing_text_t
@@ -66,10 +67,11 @@ contains
       self%n = self%n + 1
       self%times(self%n) = time
       self%behind = .true.
-      if (wall_seconds() - self%last_written >= write_interval) call self%write(path, problem)
+      if (wall_seconds() - self%last_written >= write_interval .and. is_first()) call self%write(path, problem)
+      call problem%tell()
    end subroutine add
 
-   !> Writes the series as a whole file.
+   !> Writes the series as a whole file: of the first process alone.
    subroutine write_series(self, path, problem)
       class(series_t), intent(inout) :: self
       character(*), intent(in) :: path
@@ -86,7 +88,8 @@ contains
       character(*), intent(in) :: path
       type(failure), intent(inout) :: problem   !! exit_files
 
-      if (self%behind) call self%write(path, problem)
+      if (is_first() .and. self%behind) call self%write(path, problem)
+      call problem%tell()
    end subroutine finish
 
    !> Snapshots so far.

@@ -2,6 +2,7 @@
 !! and later open it without a plug-in, h5py users find named arrays with units.
 module snapshot
    use, intrinsic :: iso_fortran_env, only: int8
+   use communication, only: largest_of_all, n_processes, sums_of_all, this_process
    use errors, only: failure
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: dp, i8, sp
@@ -50,9 +51,10 @@ contains
       character(*), intent(in) :: precision          !! 'single' or 'double', of positions and fields
       type(failure), intent(inout) :: problem        !! exit_files: cannot be written
       type(hdf5_writer_t) :: file
-      logical :: single
+      logical :: single, single_places
       integer :: i
 
+      single_places = .false.
       single = precision /= 'double'
       call file%create(path)
       call write_head(file, head)
@@ -60,8 +62,9 @@ contains
       call file%attach(grid, 'Version', [1, 0])
       call file%put_label(grid, 'Type', 'UnstructuredGrid')
       call file%put_label(grid, 'title', text_or_none(head%title))   ! for readers that must not crash on a damaged heap
-      call write_cells(file, size(x))
-      call file%put_vectors(grid//'/Points', x, y, single .and. fine_enough(x, y, head%spacing))
+      call write_cells(file, size(id))
+      if (single) single_places = fine_enough(x, y, head%spacing)
+      call file%put_vectors(grid//'/Points', x, y, single_places)
       call label(file, grid//'/Points', 'length', 'position (x, y, 0)')
       call file%make_group(grid//'/PointData')
       call file%put_integers(points//'id', id)
@@ -71,21 +74,20 @@ contains
       end do
       call file%make_group(grid//'/CellData')
       call file%make_group(grid//'/FieldData')
-      call file%put_reals(grid//'/FieldData/TimeValue', [head%time], single=.false.)
+      call file%put_reals(grid//'/FieldData/TimeValue', [head%time], single=.false., in_parts=.false.)
       call label(file, grid//'/FieldData/TimeValue', 'time', 'time of the snapshot')
       call file%finish(problem)
    end subroutine write_snapshot
 
    ! Whether coordinates in single precision tell particles apart: far from the origin they do not.
-   pure logical function fine_enough(x, y, dx)
+   logical function fine_enough(x, y, dx)
       real(dp), intent(in) :: x(:), y(:), dx
       real(dp), parameter :: coarsest = 1.0e-2_dp   ! steps of coordinates in units of dx
-      real(dp) :: farthest
+      real(dp) :: farthest(1)
 
-      fine_enough = .true.
-      if (size(x) == 0) return
-      farthest = max(maxval(abs(x)), maxval(abs(y)))
-      fine_enough = farthest*epsilon(1.0_sp) <= coarsest*dx
+      farthest = max(0.0_dp, maxval(abs(x)), maxval(abs(y)))
+      call largest_of_all(1, farthest)
+      fine_enough = farthest(1)*epsilon(1.0_sp) <= coarsest*dx
    end function fine_enough
 
    !> The run's attributes on the root group.
@@ -108,23 +110,27 @@ contains
    end subroutine write_head
 
    !> One cell for each particle: without cells ParaView shows nothing.
-   subroutine write_cells(file, n)
+   subroutine write_cells(file, n_here)
       type(hdf5_writer_t), intent(inout) :: file
-      integer, intent(in) :: n   !! particles
+      integer, intent(in) :: n_here   !! particles that this process has
       integer(i8), allocatable :: numbers(:)
       integer(int8), allocatable :: types(:)
-      integer(i8) :: i
+      integer(i8), allocatable :: before(:)
+      integer(i8) :: total(1), i
 
-      allocate (types(n), source=vtk_vertex)
-      allocate (numbers(n + 1))
-      do i = 1, n + 1
-         numbers(i) = i - 1
-      end do
-      call file%put_longs(grid//'/NumberOfPoints', [int(n, i8)])
-      call file%put_longs(grid//'/NumberOfCells', [int(n, i8)])
-      call file%put_longs(grid//'/NumberOfConnectivityIds', [int(n, i8)])
-      call file%put_longs(grid//'/Connectivity', numbers(:n))
-      call file%put_longs(grid//'/Offsets', numbers)
+      allocate (before(n_processes()), source=0_i8)
+      before(this_process() + 1) = n_here
+      call sums_of_all(size(before), before)
+      total = sum(before)   ! of all
+      before(1) = sum(before(:this_process()))
+      numbers = [(before(1) + i, i=0, n_here - 1)]
+      allocate (types(n_here), source=vtk_vertex)
+      call file%put_longs(grid//'/NumberOfPoints', total, in_parts=.false.)
+      call file%put_longs(grid//'/NumberOfCells', total, in_parts=.false.)
+      call file%put_longs(grid//'/NumberOfConnectivityIds', total, in_parts=.false.)
+      call file%put_longs(grid//'/Connectivity', numbers, in_parts=.true.)
+      if (this_process() == n_processes() - 1) numbers = [numbers, total]
+      call file%put_longs(grid//'/Offsets', numbers, in_parts=.true.)
       call file%put_bytes(grid//'/Types', types)
    end subroutine write_cells
 
@@ -136,7 +142,7 @@ contains
       if (allocated(field%vectors)) then
          call file%put_vectors(points//field%name, field%vectors(:, 1), field%vectors(:, 2), single)
       else
-         call file%put_reals(points//field%name, field%values, single)
+         call file%put_reals(points//field%name, field%values, single, in_parts=.true.)
       end if
       call label(file, points//field%name, text_or_none(field%unit), text_or_none(field%long_name))
    end subroutine write_field

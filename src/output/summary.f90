@@ -1,5 +1,6 @@
 !> The end of a run in `key = value` lines, written as one whole file.
 module summary
+   use communication, only: is_first
    use errors, only: failure
    use file_system, only: write_whole_file
    use kinds, only: dp, i8
@@ -66,7 +67,8 @@ contains
       type(failure), intent(inout) :: problem   !! exit_files
 
       if (.not. allocated(self%text)) self%text = ''
-      call write_whole_file(path, self%text, problem)
+      if (is_first()) call write_whole_file(path, self%text, problem)
+      call problem%tell()
    end subroutine write_summary
 
 end module summary

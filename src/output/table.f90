@@ -4,6 +4,7 @@
 !! gnuplot (`set datafile columnheaders`, `column("E_K")`) and pandas find them.
 module table
    use archive, only: archive_t
+   use communication, only: is_first
    use errors, only: exit_files, failure
    use file_system, only: file_bytes, flush_unit, path_exists, secure_unit, seek_end, shorten_file
    use kinds, only: dp, i8
@@ -14,6 +15,7 @@ module table
    public :: table_t
 
    integer, parameter :: no_unit = -1
+   integer, parameter :: elsewhere = huge(1)                !! the first process writes
    real(dp), parameter :: no_row = -huge(1.0_dp)
    integer, parameter :: column_width = 25                  !! full precision, three digits of exponent
    real(dp), parameter :: flush_interval = 1.0_dp           !! [s], so that a run can be watched
@@ -82,10 +84,17 @@ contains
 
       self%path = trim(path)
       self%row_bytes = size(names)*column_width + 1
+      if (.not. is_first()) then
+         self%unit = elsewhere
+         call problem%tell()
+         if (problem%raised()) self%unit = no_unit
+         return
+      end if
       open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
       if (status /= 0) then
          self%unit = no_unit
          call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
+         call problem%tell()
          return
       end if
       self%bytes = 0
@@ -103,6 +112,8 @@ contains
       end do
       call put(last)
       call flush_now(self, wall_seconds(), problem)
+      call problem%tell()
+      if (problem%raised()) call give_up(self)
 
    contains
 
@@ -124,6 +135,28 @@ contains
       integer, intent(in) :: columns
       logical, intent(in) :: only_check         !! whether it can be: nothing is opened
       type(failure), intent(inout) :: problem   !! exit_files: it is not what was kept, or cannot be written
+
+      self%unit = merge(no_unit, elsewhere, only_check)
+      if (is_first()) call open_begun(self, path, columns, only_check, problem)
+      call problem%tell()
+      if (problem%raised()) call give_up(self)
+   end subroutine go_on
+
+   ! A table that cannot be written is open nowhere.
+   subroutine give_up(self)
+      class(table_t), intent(inout) :: self
+      integer :: ignored
+
+      if (is_first() .and. self%unit /= no_unit) close (self%unit, iostat=ignored)
+      self%unit = no_unit
+   end subroutine give_up
+
+   subroutine open_begun(self, path, columns, only_check, problem)
+      class(table_t), intent(inout) :: self
+      character(*), intent(in) :: path
+      integer, intent(in) :: columns
+      logical, intent(in) :: only_check
+      type(failure), intent(inout) :: problem
       character(256) :: message
       character(:), allocatable :: reason
       integer(i8) :: there
@@ -151,7 +184,7 @@ contains
       end if
       self%unit = no_unit
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
-   end subroutine go_on
+   end subroutine open_begun
 
    ! Whether a line ends where the kept part does, and is that of the last row.
    logical function ends_as_kept(self, path)
@@ -181,11 +214,20 @@ contains
       class(table_t), intent(inout) :: self
       real(dp), intent(in) :: values(:)         !! (columns)
       type(failure), intent(inout) :: problem   !! exit_files: the disk is full
+
+      if (self%unit == no_unit) return
+      if (is_first()) call write_row(self, values, problem)
+      call problem%tell()
+   end subroutine row
+
+   subroutine write_row(self, values, problem)
+      class(table_t), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+      type(failure), intent(inout) :: problem
       character(256) :: message
       real(dp) :: now
       integer :: status
 
-      if (self%unit == no_unit) return
       write (self%unit, row_format, iostat=status, iomsg=message) values
       if (status /= 0) then
          call problem%raise(exit_files, "cannot write '"//self%path//"': "//trim(message))
@@ -195,7 +237,7 @@ contains
       self%last = values(1)
       now = wall_seconds()
       if (now - self%last_flush >= flush_interval) call flush_now(self, now, problem)
-   end subroutine row
+   end subroutine write_row
 
    !> All rows so far are on the disk.
    subroutine secure(self, problem)
@@ -205,8 +247,11 @@ contains
       character(:), allocatable :: reason
 
       if (self%unit == no_unit) return
-      call secure_unit(self%unit, self%bytes, reason)
-      call tell(self, reason, problem)
+      if (is_first()) then
+         call secure_unit(self%unit, self%bytes, reason)
+         call complain(self, reason, problem)
+      end if
+      call problem%tell()
    end subroutine secure
 
    !> Ends a table, which is on the disk then; one that is not open is left alone.
@@ -217,7 +262,7 @@ contains
 
       if (self%unit == no_unit) return
       call self%secure(problem)
-      close (self%unit, iostat=ignored)
+      if (is_first()) close (self%unit, iostat=ignored)
       self%unit = no_unit
    end subroutine close_table
 
@@ -235,12 +280,12 @@ contains
       character(:), allocatable :: reason
 
       call flush_unit(self%unit, self%bytes, reason)
-      call tell(self, reason, problem)
+      call complain(self, reason, problem)
       self%last_flush = now
    end subroutine flush_now
 
    ! What is wrong, once, if anything is. Rows of a file without a name would be lost at the end of the run.
-   subroutine tell(self, reason, problem)
+   subroutine complain(self, reason, problem)
       class(table_t), intent(inout) :: self
       character(*), intent(in) :: reason   !! of the system; '' if it took all
       type(failure), intent(inout) :: problem
@@ -253,7 +298,7 @@ contains
       if (words == '' .or. self%failed) return
       self%failed = .true.
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//words)
-   end subroutine tell
+   end subroutine complain
 
    !> A column name above the last digit of its numbers; the first column begins with blanks too.
    pure function right_aligned(name) result(cell)

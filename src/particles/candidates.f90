@@ -20,7 +20,7 @@ module candidates
    !> The lists of a block, one cluster's behind the other's.
    type :: candidates_t
       integer :: before = 0                           !! slots before the block's first
-      integer :: n_clusters = 0                       !! the last block is not full
+      integer :: n_clusters = 0
       integer :: first(block_clusters + 1) = 1        !! where a cluster's list begins in `slot`
       integer :: first_image(block_clusters) = 1      !! where its images begin: they come last
       integer, allocatable :: slot(:)

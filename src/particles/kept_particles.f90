@@ -2,7 +2,8 @@
 module kept_particles
    use archive, only: archive_t
    use kinds, only: dp, sp
-   use particles, only: particles_t
+   use number_order, only: find_order, number_order_t
+   use particles, only: particles_t, reserve_slots
    implicit none
    private
 
@@ -14,19 +15,17 @@ contains
    subroutine archive_particles(p, file)
       type(particles_t), intent(inout) :: p
       class(archive_t), intent(inout) :: file
-      integer, allocatable :: slot(:)   ! of each number
-      integer :: i
+      type(number_order_t) :: order
+      integer :: i, n
 
-      allocate (slot(p%n))
+      call find_order(p, order)
+      n = order%last - order%first + 1
       if (file%reading) then
-         slot = [(i, i=1, p%n)]
-         p%id(:p%n) = slot
-         p%n_own = p%n
-         p%n_slots = p%n
-      else
-         do i = 1, p%n_own
-            if (p%id(i) > 0) slot(p%id(i)) = i
-         end do
+         call reserve_slots(p, n)
+         p%id(:n) = [(i, i=order%first, order%last)]
+         p%n_own = n
+         p%n_held = n
+         p%n_slots = n
       end if
       call file%part('particles')
       call keep_reals('x', p%next%x)
@@ -45,23 +44,21 @@ contains
       subroutine keep_reals(name, values)
          character(*), intent(in) :: name
          real(dp), intent(inout) :: values(:)   !! (slots)
-         real(dp), allocatable :: ordered(:)
+         real(dp) :: ordered(n)
 
-         allocate (ordered(p%n))
-         ordered(:) = values(slot)
-         call file%keep(name, ordered)
-         if (file%reading) values(:p%n) = ordered
+         if (.not. file%reading) ordered = order%sorted(values)
+         call file%keep_parts(name, order%first, order%total, ordered)
+         if (file%reading) values(:n) = ordered
       end subroutine keep_reals
 
       subroutine keep_singles(name, values)
          character(*), intent(in) :: name
          real(sp), intent(inout) :: values(:)   !! (slots)
-         real(sp), allocatable :: ordered(:)
+         real(sp) :: ordered(n)
 
-         allocate (ordered(p%n))
-         ordered(:) = values(slot)
-         call file%keep(name, ordered)
-         if (file%reading) values(:p%n) = ordered
+         if (.not. file%reading) ordered = real(order%sorted(real(values, dp)), sp)
+         call file%keep_single_parts(name, order%first, order%total, ordered)
+         if (file%reading) values(:n) = ordered
       end subroutine keep_singles
 
    end subroutine archive_particles

@@ -5,7 +5,11 @@
 !! lists are to hold, and allows for accelerations by a slack of each block; the time step verifies both, and has lists made again
 !! in time.
 module neighbours
-   use candidates, only: block_slots, candidates_t, list_group, trim_lists
+   use candidates, only: block_groups, candidates_t, list_group, trim_lists
+   use communication, only: any_process, largest_of_all, n_processes
+   use division, only: division_t
+   use halo, only: find_halo
+   use migration, only: migrate
    use box, only: left_wall, box_t
    use image_laws, only: as_scalar
    use images, only: fill_ghosts, images_t, list_images
@@ -13,6 +17,7 @@ module neighbours
    use kinds, only: dp, i8, sp
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
+   use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
    private
@@ -41,14 +46,22 @@ module neighbours
       real(dp) :: slack = 0     !! that every block has at least
       real(dp) :: slack_time_2 = 0   !! slack of a block for its acceleration
       real(dp) :: image_slack = 0    !! that images were made for: no block may have more
-      real(dp) :: stray = 0     !! largest of all blocks
+      real(dp) :: stray = 0, next_stray = 0   !! largest of all blocks, as in margin_t
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
+      logical :: lasts = .false.     !! the lists serve for the next step
       integer :: n_blocks = 0
-      type(strips_t) :: strips               !! of the own slots
+      integer, allocatable :: order(:)               !! (n_blocks) those first that no copy and no image of one is near
+      integer :: n_inner = 0                         !! of these
+      integer, allocatable :: first_block(:)         !! (own strips+1) of each own strip
+      integer :: sorts = 0      !! so far
+      type(division_t) :: division           !! among the processes
+      type(strips_t) :: strips               !! of the slots held
       type(images_t) :: images               !! behind the own slots
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
       type(margin_t), allocatable :: margins(:)      !! (n_blocks)
    contains
+      procedure :: computes
+      procedure :: part
       procedure :: bytes => neighbours_bytes
    end type neighbours_t
 
@@ -63,6 +76,25 @@ contains
          + size(self%margins, kind=i8)*storage_size(self%margins)/8
    end function neighbours_bytes
 
+   !> From where to where in `order`: 1 for what can be computed while copies are on their way, 2 for the rest.
+   pure function part(self, number) result(span)
+      class(neighbours_t), intent(in) :: self
+      integer, intent(in) :: number
+      integer :: span(2)
+
+      span = merge([1, self%n_inner], [self%n_inner + 1, self%n_blocks], number == 1)
+   end function part
+
+   !> Whether this process has all that is near a line across the box.
+   elemental logical function computes(self, x)
+      class(neighbours_t), intent(in) :: self
+      real(dp), intent(in) :: x   !! of the line
+
+      associate (strips => self%strips)
+         computes = strips%place_of(x) >= strips%own_places(1) .and. strips%place_of(x) <= strips%own_places(2)
+      end associate
+   end function computes
+
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
    !! The images are filled. The state of `next` is not changed.
@@ -74,36 +106,47 @@ contains
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: span         !! time that the steps to come are expected to take
       logical, intent(out) :: scattered    !! some particle is too far away to go on
-      integer :: i, n_old
-      real(dp) :: outwards(4), reach(4)
+      integer, allocatable :: number(:)
+      integer :: n_points
+      real(dp) :: outwards(4), reach(4), extremes(4)
 
       self%tau = span/2
       self%jumped = .false.
-      n_old = p%n_own
-      !$omp parallel do default(none) shared(self, p, n_old)
-      do i = 1, n_old
-         p%stage(1)%x(i) = p%next%x(i) + self%tau*p%next%u(i)
-         p%stage(1)%y(i) = p%next%y(i) + self%tau*p%next%v(i)
-      end do
-      !$omp end parallel do
+      self%image_slack = max(self%slack, image_slack*kernel%support)
+      ! Room for steps half as long again as expected.
+      self%image_travel = 2*self%tau
+      call predict(self%tau, 1, p%n_own, p)
       self%strips%width = kernel%support/2
       self%strips%bin_height = dx/4
       self%strips%origin = box%at(left_wall)
-      call sort_into_strips(self%strips, n_old, p%id(1:n_old), p%stage(1)%x(1:n_old), p%stage(1)%y(1:n_old), 1, .true.)
-      scattered = self%strips%n < 0
+      if (n_processes() == 1) then
+         call sort_into_strips(self%strips, p%n_own, p%id(1:p%n_own), p%stage(1)%x(1:p%n_own), p%stage(1)%y(1:p%n_own), 1, .true.)
+      else
+         call migrate(self%division, self%sorts, self%strips, p, box, kernel%support + 2*self%image_slack, self%image_travel, &
+                      n_points, number, scattered)
+         if (scattered) return
+         call predict(self%tau, p%n_own + 1, n_points, p)
+         call sort_into_strips(self%strips, n_points, number, p%stage(1)%x(1:n_points), p%stage(1)%y(1:n_points), 1, .true.)
+      end if
+      self%sorts = self%sorts + 1
+      scattered = any_process(self%strips%n < 0)
       if (scattered) return
       call permute(self, p)
-      self%image_slack = max(self%slack, image_slack*kernel%support)
+      if (n_processes() > 1) call find_halo(self%images%halo, self%division, self%strips)
       call lay_out_blocks(self)
       call set_margins(self, p)
       self%age = 0
       self%stray = 0
       call measure_strips(self%strips, p%base)
+      associate (overall => self%strips%overall)
+         extremes = [-overall%slowest, overall%fastest]
+         call largest_of_all(4, extremes)
+         overall%slowest = -extremes(1:2)
+         overall%fastest = extremes(3:4)
+      end associate
       self%images%strips%width = self%strips%width
       self%images%strips%bin_height = dx   ! images stand in narrow stripes far apart, and many bins are empty
       self%images%strips%origin = self%strips%origin
-      ! Room for steps half as long again as expected.
-      self%image_travel = 2*self%tau
       associate (overall => self%strips%overall)
          ! Others may be beyond a side by what they move outwards, as the side sees it.
          outwards = [overall%slowest(1), overall%fastest(1), overall%slowest(2), overall%fastest(2)] - box%normal_velocity()
@@ -113,11 +156,26 @@ contains
          reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       end associate
       call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
-      scattered = self%images%strips%n < 0
+      scattered = any_process(self%images%strips%n < 0)
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles
+
+   ! Where particles will be in the middle of the steps to come.
+   subroutine predict(tau, first, last, p)
+      real(dp), intent(in) :: tau
+      integer, intent(in) :: first, last      !! slots of `next`
+      type(particles_t), intent(inout) :: p   !! stage(1) gets the positions
+      integer :: i
+
+      !$omp parallel do default(none) shared(tau, first, last, p)
+      do i = first, last
+         p%stage(1)%x(i) = p%next%x(i) + tau*p%next%u(i)
+         p%stage(1)%y(i) = p%next%y(i) + tau*p%next%v(i)
+      end do
+      !$omp end parallel do
+   end subroutine predict
 
    !> Takes the state of `next` into `base` as it is, with the order and the lists that there are.
    subroutine keep_order(self, p, box, step)
@@ -128,7 +186,7 @@ contains
 
       self%age = self%age + step
       self%margins%stray = self%margins%next_stray
-      self%stray = maxval(self%margins(:self%n_blocks)%stray)
+      self%stray = self%next_stray
       call swap_states(p%base, p%next)
       call fill_ghosts(self%images, box, p%base)
    end subroutine keep_order
@@ -144,10 +202,11 @@ contains
 
       call reserve_slots(p, self%strips%n_slots)
       if (p%features%dissipation) call permute_dissipated(self, p)
-      p%n_own = self%strips%n_slots
-      p%n_slots = p%n_own
+      p%n_own = self%strips%n_own_slots
+      p%n_held = self%strips%n_slots
+      p%n_slots = p%n_held
       !$omp parallel do default(none) shared(self, p) private(old)
-      do i = 1, p%n_own
+      do i = 1, p%n_held
          old = self%strips%point_of(i)
          if (old > 0) then
             p%base%x(i) = p%next%x(old)
@@ -198,21 +257,44 @@ contains
       call move_alloc(spare, p%dissipating)
    end subroutine permute_dissipated
 
+   ! A block lies in one strip, so that it does not depend on what other strips there are; those of a strip are about as long.
    subroutine lay_out_blocks(self)
       type(neighbours_t), intent(inout) :: self
-      integer :: b
+      integer :: b, k, n_own, strip, first, last, n
 
-      self%n_blocks = (self%strips%n_slots + block_slots - 1)/block_slots
+      n_own = self%strips%own(2) - self%strips%own(1) + 1
+      self%first_block = [1, (0, k=1, n_own)]
+      do k = 1, n_own
+         self%first_block(k + 1) = self%first_block(k) + (groups_in(self%strips, self%strips%own(1) + k - 1) + block_groups - 1) &
+                                   /block_groups
+      end do
+      self%n_blocks = self%first_block(n_own + 1) - 1
       if (allocated(self%blocks)) then
          if (size(self%blocks) < self%n_blocks) deallocate (self%blocks, self%margins)
       end if
       if (.not. allocated(self%blocks)) &
          allocate (self%blocks(self%n_blocks + self%n_blocks/8 + 1), self%margins(self%n_blocks + self%n_blocks/8 + 1))
-      do b = 1, self%n_blocks
-         self%blocks(b)%before = (b - 1)*block_slots
-         self%blocks(b)%n_clusters = min(block_slots, self%strips%n_slots - self%blocks(b)%before)/nl
+      do k = 1, n_own
+         strip = self%strips%own(1) + k - 1
+         n = self%first_block(k + 1) - self%first_block(k)
+         last = 0
+         do b = 1, n
+            first = last
+            last = b*groups_in(self%strips, strip)/n
+            associate (block => self%blocks(self%first_block(k) + b - 1))
+               block%before = self%strips%first(strip) - 1 + first*group_slots
+               block%n_clusters = (last - first)*group_slots/nl
+            end associate
+         end do
       end do
    end subroutine lay_out_blocks
+
+   pure integer function groups_in(strips, strip) result(n)
+      type(strips_t), intent(in) :: strips
+      integer, intent(in) :: strip
+
+      n = (strips%last(strip) - strips%first(strip) + 1)/group_slots
+   end function groups_in
 
    ! The slack of each block, for the accelerations that its particles had.
    subroutine set_margins(self, p)
@@ -234,50 +316,6 @@ contains
       !$omp end parallel do
    end subroutine set_margins
 
-   ! Velocities of each strip and of all, without the dummies at a strip's end.
-   subroutine measure_strips(strips, state)
-      type(strips_t), intent(inout) :: strips
-      type(state_t), intent(in) :: state
-      integer :: k, first, last
-
-      strips%overall = extent_t()
-      if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, state) private(first, last) &
-      !$omp schedule(dynamic, max(1, strips%n/256))
-      do k = 1, strips%n
-         strips%extent(k) = extent_t()
-         first = strips%slot_start(k)
-         last = strips%slot_start(k + 1) - 1
-         do while (strips%point_of(last - strips%slot_start(1) + 1) == 0)
-            last = last - 1
-         end do
-         associate (extent => strips%extent(k))
-            call span_of(last - first + 1, state%u(first:last), extent%slowest(1), extent%fastest(1))
-            call span_of(last - first + 1, state%v(first:last), extent%slowest(2), extent%fastest(2))
-         end associate
-      end do
-      !$omp end parallel do
-      do k = 1, strips%n
-         strips%overall%slowest = min(strips%overall%slowest, strips%extent(k)%slowest)
-         strips%overall%fastest = max(strips%overall%fastest, strips%extent(k)%fastest)
-      end do
-   end subroutine measure_strips
-
-   pure subroutine span_of(n, values, least, most)
-      integer, intent(in) :: n
-      real(dp), intent(in) :: values(n)
-      real(dp), intent(out) :: least, most
-      integer :: i
-
-      least = values(1)
-      most = values(1)
-      !$omp simd reduction(min:least) reduction(max:most)
-      do i = 2, n
-         least = min(least, values(i))
-         most = max(most, values(i))
-      end do
-   end subroutine span_of
-
    ! The slack of each slot, into `slack`, of each strip and of all. An image has its source's.
    subroutine spread_slack(self, slack)
       type(neighbours_t), intent(inout) :: self
@@ -295,21 +333,6 @@ contains
       call take_slack(self%strips, slack)
       call take_slack(self%images%strips, slack)
    end subroutine spread_slack
-
-   subroutine take_slack(strips, slack)
-      type(strips_t), intent(inout) :: strips
-      real(dp), intent(in) :: slack(:)
-      integer :: k
-
-      strips%overall%slack = 0
-      if (strips%n == 0) return
-      !$omp parallel do default(none) shared(strips, slack) schedule(dynamic, max(1, strips%n/256))
-      do k = 1, strips%n
-         strips%extent(k)%slack = max(0.0_dp, maxval(slack(strips%slot_start(k):strips%slot_start(k + 1) - 1)))
-      end do
-      !$omp end parallel do
-      strips%overall%slack = maxval(strips%extent(:strips%n)%slack)
-   end subroutine take_slack
 
    !> Lists the slots that each cluster can reach until `travel` before or after the time that the
    !! particles were sorted for.
@@ -347,7 +370,33 @@ contains
       !$omp end do
       !$omp end parallel
       if (.not. within_step) call swap_states(predicted, p%stage(1))
+      call find_inner(self, p%n_own, p%n_held)
    end subroutine list_neighbours
+
+   ! Blocks that can be computed while copies are on their way.
+   subroutine find_inner(self, n_own, n_held)
+      type(neighbours_t), intent(inout) :: self
+      integer, intent(in) :: n_own, n_held   !! slots
+      logical :: outer(self%n_blocks)
+      integer :: b, i, k
+
+      outer = .false.
+      if (self%images%halo%exists) then
+         !$omp parallel do default(none) shared(self, outer, n_own, n_held) private(i, k)
+         do b = 1, self%n_blocks
+            associate (block => self%blocks(b))
+               do k = 1, block%first(block%n_clusters + 1) - 1
+                  i = block%slot(k)
+                  if (i > n_held) i = self%images%source(i - n_held)
+                  outer(b) = outer(b) .or. i > n_own
+               end do
+            end associate
+         end do
+         !$omp end parallel do
+      end if
+      self%n_inner = count(.not. outer)
+      self%order = [pack([(b, b=1, self%n_blocks)], .not. outer), pack([(b, b=1, self%n_blocks)], outer)]
+   end subroutine find_inner
 
    ! The lists of a block's clusters.
    subroutine list_block(self, n, id, predicted, base, b, support, travel)

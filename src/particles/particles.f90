@@ -34,7 +34,8 @@ module particles
       type(features_t) :: features
       integer :: n = 0          !! real particles
       integer :: n_own = 0      !! own slots, padding included: whole groups
-      integer :: n_slots = 0    !! own slots and images
+      integer :: n_held = 0     !! own slots and copies of what other processes compute
+      integer :: n_slots = 0    !! these and images
       integer :: capacity = 0   !! slots allocated
       integer :: bytes_per_slot = 0   !! in all arrays below
       type(state_t) :: base        !! state at the start of the step

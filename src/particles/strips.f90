@@ -13,10 +13,13 @@ module strips
    implicit none
    private
 
-   public :: strips_t, ranges_t, extent_t, sort_into_strips, add_ranges, relative_speed
+   public :: strips_t, ranges_t, extent_t, sort_into_strips, too_scattered, add_ranges, relative_speed
 
    integer, parameter, public :: group_slots = max(8, nl)   !! slots whose neighbours are searched for together
-   integer, parameter, public :: max_ranges = 24   !! a group's ranges: strips it reaches
+   integer, parameter :: strip_ranges = 24               ! strips that a group reaches, at least
+   integer, parameter, public :: max_ranges = strip_ranges + 4   !! a group's ranges
+
+   integer(i8), parameter, public :: all_places = 2_i8**60   !! from minus to plus this
 
    !> Contiguous slot ranges.
    type :: ranges_t
@@ -39,10 +42,15 @@ module strips
       real(dp) :: left = 0                          !! x of the first strip's left edge
       real(dp) :: width = 1                         !! of a strip
       real(dp) :: bin_height = 1                    !! in y
+      integer(i8) :: first_place = 0                !! of the first strip, counted from the origin
+      integer(i8) :: own_places(2) = [-all_places, all_places]   !! that this process computes, from and to; set by the caller
+      integer :: own(2) = [1, 0]                    !! strips there, from and to: their slots come first
+      integer :: slots_before = 0                   !! slots before those of the strips
+      integer :: n_own_slots = 0                    !! slots of the own strips, padding included
       integer :: n_slots = 0                        !! slots taken, padding included
       integer, allocatable :: place(:)              !! (n) of a strip, counted from the left
       integer, allocatable :: before(:)             !! (n_places+1) strips to the left of a place
-      integer, allocatable :: slot_start(:)         !! (n+1) first slot of a strip
+      integer, allocatable :: first(:), last(:)     !! (n) slots of a strip
       real(dp), allocatable :: lowest(:)            !! (n) y of a strip's first bin
       integer, allocatable :: bins(:)               !! (n) bins of a strip
       integer, allocatable :: bin_offset(:)         !! (n) where a strip's bins are in bin_start
@@ -51,8 +59,9 @@ module strips
       type(extent_t) :: overall                     !! of all strips
       integer, allocatable, private :: strip_of(:)  !! (points) scratch
       integer, allocatable, private :: by_strip(:)  !! (points) scratch
-      integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from slot_start(1)
+      integer, allocatable :: point_of(:)           !! (n_slots) point in a slot, 0 for a dummy; counted from the first slot taken
    contains
+      procedure :: place_of
       procedure :: bytes => strips_bytes
    end type strips_t
 
@@ -71,21 +80,41 @@ contains
       logical, intent(in) :: whole_groups        !! pad each strip to whole groups
       integer, allocatable :: strip_start(:)
 
-      call assign_strips(self, n_points, number, x)
+      call assign_strips(self, n_points, number, x, whole_groups)
       if (self%n < 0) return
       call list_by_strip(self, n_points, strip_start)
       call lay_out(self, strip_start, y, first_slot, whole_groups)
       call fill_bins(self, strip_start, number, y)
    end subroutine sort_into_strips
 
+   !> Where the strip of a point is, counted from the origin: that depends on no other point.
+   elemental integer(i8) function place_of(self, x) result(place)
+      class(strips_t), intent(in) :: self
+      real(dp), intent(in) :: x
+
+      place = floor((x - self%origin)/self%width, i8)
+   end function place_of
+
+   !> Whether there are points too far from others, or from the origin, for strips.
+   pure logical function too_scattered(self, first, last, is_fluid)
+      type(strips_t), intent(in) :: self
+      real(dp), intent(in) :: first, last   !! least and largest x
+      logical, intent(in) :: is_fluid       !! there may be images beyond them
+      integer, parameter :: for_images = 8
+      integer, parameter :: max_strips = 4000000
+      real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
+
+      too_scattered = .not. (last - first < self%width*(max_strips - merge(for_images, 0, is_fluid)) &
+                             .and. abs((first - self%origin)/self%width) < max_offset)
+   end function too_scattered
+
    ! The strip of each point; 0 for points that take no part.
-   subroutine assign_strips(self, n_points, number, x)
+   subroutine assign_strips(self, n_points, number, x, is_fluid)
       type(strips_t), intent(inout) :: self
       integer, intent(in) :: n_points, number(n_points)
       real(dp), intent(in) :: x(n_points)
-      integer, parameter :: max_strips = 4000000
-      real(dp), parameter :: max_offset = 2.0_dp**52   ! strips further from the origin than this are not told from their neighbours
-      real(dp) :: first, last, offset
+      logical, intent(in) :: is_fluid
+      real(dp) :: first, last
       integer :: i
 
       first = huge(1.0_dp)
@@ -101,10 +130,10 @@ contains
       self%n_places = 0
       if (last >= first) then
          self%n = -1
-         offset = (first - self%origin)/self%width
-         if (.not. (last - first < self%width*max_strips .and. abs(offset) < max_offset)) return
-         self%left = self%origin + self%width*floor(offset, i8)
-         self%n_places = int((last - self%left)/self%width) + 1
+         if (too_scattered(self, first, last, is_fluid)) return
+         self%first_place = self%place_of(first)
+         self%left = self%origin + self%width*self%first_place
+         self%n_places = int(self%place_of(last) - self%first_place) + 1
       end if
       call resize(self%strip_of, n_points)
       call resize(self%before, self%n_places + 1)
@@ -113,7 +142,7 @@ contains
       do i = 1, n_points
          self%strip_of(i) = 0
          if (number(i) == 0) cycle
-         self%strip_of(i) = min(self%n_places, int((x(i) - self%left)/self%width) + 1)
+         self%strip_of(i) = int(self%place_of(x(i)) - self%first_place) + 1
          !$omp atomic write
          self%before(self%strip_of(i)) = 1
       end do
@@ -202,9 +231,10 @@ contains
       integer, intent(in) :: first_slot
       logical, intent(in) :: whole_groups
       real(dp) :: lowest, highest
-      integer :: k, i, n_here, slot, offset, max_bins
+      integer :: k, i, n_here, slot, offset, max_bins, pass
 
-      call resize(self%slot_start, self%n + 1)
+      call resize(self%first, self%n)
+      call resize(self%last, self%n)
       call resize(self%bins, self%n)
       call resize(self%bin_offset, self%n)
       call resize_real(self%lowest, self%n)
@@ -222,27 +252,45 @@ contains
             highest = max(highest, y(self%by_strip(i)))
          end do
          n_here = strip_start(k + 1) - strip_start(k)
-         self%lowest(k) = lowest
+         ! A whole number of bins from y = 0: who else is there does not matter.
+         self%lowest(k) = self%bin_height*(aint(lowest/self%bin_height) - merge(1, 0, lowest < 0))
          ! A strip of few far-apart points is not worth a bin every quarter spacing.
          max_bins = 64*n_here + 64
-         self%bins(k) = int(min(real(max_bins, dp), (highest - lowest)/self%bin_height)) + 1
+         self%bins(k) = int(min(real(max_bins, dp), (highest - self%lowest(k))/self%bin_height)) + 1
       end do
       !$omp end parallel do
+      call find_own(self)
       slot = first_slot
       offset = 0
-      do k = 1, self%n
-         n_here = strip_start(k + 1) - strip_start(k)
-         self%slot_start(k) = slot
-         if (whole_groups) n_here = group_slots*((n_here + group_slots - 1)/group_slots)
-         slot = slot + n_here
-         self%bin_offset(k) = offset
-         offset = offset + self%bins(k) + 1
+      do pass = 1, 2
+         if (pass == 2) self%n_own_slots = slot - first_slot
+         do k = 1, self%n
+            if ((k >= self%own(1) .and. k <= self%own(2)) .neqv. pass == 1) cycle
+            n_here = strip_start(k + 1) - strip_start(k)
+            if (whole_groups) n_here = group_slots*((n_here + group_slots - 1)/group_slots)
+            self%first(k) = slot
+            slot = slot + n_here
+            self%last(k) = slot - 1
+            self%bin_offset(k) = offset
+            offset = offset + self%bins(k) + 1
+         end do
       end do
-      self%slot_start(self%n + 1) = slot
+      self%slots_before = first_slot - 1
       self%n_slots = slot - first_slot
       call resize(self%bin_start, offset)
       call resize(self%point_of, self%n_slots)
    end subroutine lay_out
+
+   ! The strips among `own_places`.
+   pure subroutine find_own(self)
+      type(strips_t), intent(inout) :: self
+      integer(i8) :: from, to
+
+      from = max(1_i8, self%own_places(1) - self%first_place + 1)
+      to = min(int(self%n_places, i8), self%own_places(2) - self%first_place + 1)
+      self%own = [1, 0]
+      if (from <= to) self%own = [self%before(from) + 1, self%before(to + 1)]
+   end subroutine find_own
 
    ! Counting sort in y inside each strip, and by number inside each bin.
    subroutine fill_bins(self, strip_start, number, y)
@@ -251,7 +299,7 @@ contains
       real(dp), intent(in) :: y(:)
       integer :: k, i, b, slot, here, first
 
-      first = self%slot_start(1) - 1
+      first = self%slots_before
       !$omp parallel do default(none) shared(self, strip_start, number, y, first) private(i, b, slot, here) &
       !$omp schedule(dynamic, max(1, self%n/256))
       do k = 1, self%n
@@ -261,13 +309,13 @@ contains
                b = bin(self, k, y(self%by_strip(i)))
                start(b) = start(b) + 1
             end do
-            slot = self%slot_start(k)
+            slot = self%first(k)
             do b = 1, self%bins(k) + 1
                here = start(b)
                start(b) = slot
                slot = slot + here
             end do
-            self%point_of(self%slot_start(k) - first:self%slot_start(k + 1) - 1 - first) = 0
+            self%point_of(self%first(k) - first:self%last(k) - first) = 0
             do i = strip_start(k), strip_start(k + 1) - 1
                b = bin(self, k, y(self%by_strip(i)))
                self%point_of(start(b) - first) = self%by_strip(i)
@@ -277,7 +325,7 @@ contains
             do b = self%bins(k) + 1, 2, -1
                start(b) = start(b - 1)
             end do
-            start(1) = self%slot_start(k)
+            start(1) = self%first(k)
             do b = 1, self%bins(k)
                if (start(b + 1) - start(b) > 1) call put_in_order(number, self%point_of(start(b) - first:start(b + 1) - 1 - first))
             end do
@@ -329,9 +377,10 @@ contains
       real(dp), intent(in) :: travel   !! time
       type(ranges_t), intent(inout) :: ranges
       real(dp) :: reach, gap, half_height, strip_left, widest, closing(2)
-      integer :: k, k1, k2, first, last
+      integer :: k, k1, k2, first, last, part, part_before
 
       if (self%n == 0) return
+      part_before = 0
       closing = travel*relative_speed(box, self%overall)
       widest = support + box%slack + self%overall%slack + closing(1)
       k1 = int(max(0.0_dp, min(real(self%n_places, dp), (box%lower(1) - widest - self%left)/self%width))) + 1
@@ -347,16 +396,20 @@ contains
          first = self%bin_start(self%bin_offset(k) + bin(self, k, box%lower(2) - half_height))
          last = self%bin_start(self%bin_offset(k) + bin(self, k, box%upper(2) + half_height) + 1) - 1
          if (last < first) cycle
-         call add_range(ranges, first, last)
+         ! Left of the own strips, these, right of them: slots ascend within a part only.
+         part = merge(1, merge(2, 3, k <= self%own(2)), k < self%own(1))
+         call add_range(ranges, first, last, anew=part /= part_before)
+         part_before = part
       end do
    end subroutine add_ranges
 
    ! Slots ascend from strip to strip, so where there is no place left the last range can take in all up to this one.
-   pure subroutine add_range(ranges, first, last)
+   pure subroutine add_range(ranges, first, last, anew)
       type(ranges_t), intent(inout) :: ranges
       integer, intent(in) :: first, last
+      logical, intent(in) :: anew   ! not behind the last range: there is a place for each such
 
-      if (ranges%n < max_ranges) then
+      if (ranges%n < strip_ranges .or. anew) then
          ranges%n = ranges%n + 1
          ranges%first(ranges%n) = first
       end if
@@ -377,7 +430,7 @@ contains
 
       bytes = 0
       if (.not. allocated(self%point_of)) return   ! nothing was sorted yet
-      associate (integers => size(self%place, kind=i8) + size(self%before) + size(self%slot_start) + size(self%bins) &
+      associate (integers => size(self%place, kind=i8) + size(self%before) + 2*size(self%first) + size(self%bins) &
                              + size(self%bin_offset) + size(self%bin_start) + size(self%strip_of) + size(self%by_strip) &
                              + size(self%point_of))
          bytes = (integers*storage_size(self%bins) + size(self%lowest, kind=i8)*storage_size(self%lowest) &

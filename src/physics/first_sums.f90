@@ -60,41 +60,41 @@ contains
          associate (near => block%slot(block%first(c):block%first(c + 1) - 1), s => p%base, reach => kernel%inverse_support)
             select case (pass)
             case (pass_flow)
-               call flow_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
+               call flow_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_held, source, i0 + k, k, reach, sums)
             case (pass_viscous)
-               call viscous_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
+               call viscous_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_held, source, i0 + k, k, reach, sums)
             case (pass_diffusive)
-               call diffusive_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
+               call diffusive_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_held, source, i0 + k, k, reach, sums)
             case (pass_constant)
-               call constant_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
+               call constant_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_held, source, i0 + k, k, reach, sums)
             case (pass_dynamic)
-               call dynamic_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_own, source, i0 + k, k, reach, sums)
+               call dynamic_loop(n, near, size(s%x), s%x, s%y, s%u, s%v, s%s, s%volume, p%n_held, source, i0 + k, k, reach, sums)
             end select
          end associate
       end do
    end subroutine sum_first
 
-   pure subroutine flow_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine flow_loop(n_near, near, n, x, y, u, v, s, volume, n_held, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .false., strain = .false., viscosity = .false.
       include 'first_pass.inc'
    end subroutine flow_loop
 
-   pure subroutine viscous_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine viscous_loop(n_near, near, n, x, y, u, v, s, volume, n_held, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .false., strain = .false., viscosity = .true.
       include 'first_pass.inc'
    end subroutine viscous_loop
 
-   pure subroutine diffusive_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine diffusive_loop(n_near, near, n, x, y, u, v, s, volume, n_held, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .false., viscosity = .false.
       include 'first_pass.inc'
    end subroutine diffusive_loop
 
-   pure subroutine constant_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine constant_loop(n_near, near, n, x, y, u, v, s, volume, n_held, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .false., viscosity = .true.
       include 'first_pass.inc'
    end subroutine constant_loop
 
-   pure subroutine dynamic_loop(n_near, near, n, x, y, u, v, s, volume, n_own, source, i0, k0, inverse_support, sums)
+   pure subroutine dynamic_loop(n_near, near, n, x, y, u, v, s, volume, n_held, source, i0, k0, inverse_support, sums)
       logical, parameter :: gradients = .true., strain = .true., viscosity = .false.
       include 'first_pass.inc'
    end subroutine dynamic_loop

@@ -5,8 +5,10 @@
 !! that a step computes depends on how long lists are kept but the order in which its sums are taken.
 module search_margins
    use archive, only: archive_t
+   use communication, only: largest_of_all, sums_of_all
+   use exact_sum, only: exact_totals
    use integrators, only: integrator_t
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use neighbours, only: margin_t, neighbours_t
    implicit none
    private
@@ -47,27 +49,28 @@ contains
    !> Slack for lists that are made now, and the time that they shall last.
    !!
    !! The cost of slack is that of its mean over all blocks, so a few fast ones do not set the time for all.
-   pure type(plan_t) function planned(near, dx, dt) result(plan)
+   type(plan_t) function planned(near, dx, dt) result(plan)
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: dt           !! expected step
-      real(dp) :: steps, largest, mean
+      real(dp) :: accelerations(near%n_blocks), total(1), largest(1), steps, mean
+      integer(i8) :: n(1)
 
-      largest = 0
+      if (near%n_blocks > 0) accelerations = near%margins(:near%n_blocks)%acceleration
+      largest = max(0.0_dp, maxval(accelerations))
+      n = near%n_blocks
+      call largest_of_all(1, largest)
+      call sums_of_all(1, n)
+      total = exact_totals(reshape(max(accelerations, spread*largest(1)), [1, near%n_blocks]))
       steps = 1
-      if (near%n_blocks > 0) then
-         associate (accelerations => near%margins(:near%n_blocks)%acceleration)
-            largest = maxval(accelerations)
-            mean = sum(max(accelerations, spread*largest))/near%n_blocks
-         end associate
-      end if
-      if (largest > 0) then
+      if (largest(1) > 0) then
+         mean = total(1)/n(1)
          steps = max(1.0_dp, anint(min(cheapest*(dx/(mean*dt**2))**(1/3.0_dp), real(most_steps, dp))))
       end if
       plan%age = near%age
       plan%span = steps*dt
       plan%slack_time_2 = safety*plan%span**2/2
-      plan%slack = max(least_slack*dx, plan%slack_time_2*spread*largest)
+      plan%slack = max(least_slack*dx, plan%slack_time_2*spread*largest(1))
    end function planned
 
    !> Whether the lists hold for the state that a stage leads to.
@@ -80,14 +83,14 @@ contains
    end function lists_reach
 
    !> More slack for blocks that go farther in a stage than the lists allow; `enough` unless there are no images for as much.
-   pure subroutine widen_margins(near, time, changes, base_changes, enough)
+   subroutine widen_margins(near, time, changes, base_changes, enough)
       type(neighbours_t), intent(inout) :: near
       real(dp), intent(in) :: time              !! as above
       real(dp), intent(in) :: changes(:)
       real(dp), intent(in) :: base_changes(:)   !! (blocks) max |u - u when sorted| of the base state
       logical, intent(out) :: enough
       real(dp), parameter :: more = 3           ! the last stage may go twice as far, and the step after this one farther
-      real(dp) :: farthest
+      real(dp) :: farthest(1)
       integer :: b
 
       farthest = 0
@@ -95,13 +98,14 @@ contains
          associate (margin => near%margins(b))
             margin%unsure = margin%stray + (abs(near%tau - near%age) + near%travel)*base_changes(b)
             if (margin%stray + time*changes(b) > margin%slack) then
-               farthest = max(farthest, margin%stray + time*changes(b))
+               farthest(1) = max(farthest(1), margin%stray + time*changes(b))
                margin%slack = max(margin%slack, min(more*(margin%stray + time*changes(b)), near%image_slack))
             end if
          end associate
       end do
-      enough = farthest <= near%image_slack
-      near%stray = max(near%stray, farthest)
+      call largest_of_all(1, farthest)
+      enough = farthest(1) <= near%image_slack
+      near%stray = max(near%stray, farthest(1))
    end subroutine widen_margins
 
    !> Where a step leads the particles.
@@ -129,8 +133,8 @@ contains
       real(dp), intent(in) :: dt   !! last step, which led from base to next
       real(dp), parameter :: longer = 1.02_dp
 
-      lists_hold = near%n_blocks > 0 .and. .not. near%jumped .and. near%age + (1 + longer)*dt <= near%tau + near%travel
-      if (.not. lists_hold) return
+      lists_hold = .not. near%jumped .and. near%age + (1 + longer)*dt <= near%tau + near%travel
+      if (near%n_blocks == 0 .or. .not. lists_hold) return
       associate (margins => near%margins(:near%n_blocks))
          lists_hold = all(margins%next_stray + dt*(margins%drift + margins%acceleration*dt) <= margins%slack)
       end associate

@@ -1,6 +1,7 @@
 !> Whether a run can go on from the result of a step.
 module step_check
-   use errors, only: exit_numerics, failure
+   use communication, only: this_process
+   use errors, only: exit_numerics, failure, text_of_largest
    use box, only: bottom_wall, left_wall, right_wall, top_wall
    use kinds, only: dp
    use model, only: model_t
@@ -25,37 +26,59 @@ contains
       real(dp), intent(in) :: end_time
       type(failure), intent(inout) :: problem   !! exit_numerics
 
-      associate (own => p%id(1:p%n_own) > 0, next => p%next, left => model%box%at(left_wall))
+      character(:), allocatable :: who, words
+
+      associate (n => p%n_own, next => p%next, left => model%box%at(left_wall))
          if (run%scattered) then
+            call find_largest(p, abs(next%x(1:n) - left), who)
             call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long after step ' &
-                               //moment(run)//': '//particle(p, maxloc(abs(next%x(1:p%n_own) - left), 1, own)) &
-                               //'; close the open side it left by')
+                               //moment(run)//': '//who//'; close the open side it left by')
             return
          end if
-         if (run%lost_slot > 0) call explain_loss(model, p, run, problem)
+         if (run%lost) then
+            ! Slots ascend with x: the last of all is that of the last process that has one.
+            words = ''
+            if (run%lost_slot > 0) words = loss_text(model, p, run)
+            call text_of_largest(merge(real(this_process(), dp), -1.0_dp, run%lost_slot > 0), words)
+            call problem%raise(exit_numerics, words)
+         end if
          ! Written so that NaN fails too.
-         if (.not. run%dt > least_step_share*model%longest_step() .and. run%time < end_time) &
-            call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
-                               //'; fastest: '//particle(p, maxloc(next%u(1:p%n_own)**2 + next%v(1:p%n_own)**2, 1, own)) &
-                               //'; a smaller limit of &model may help')
+         if (run%dt > least_step_share*model%longest_step() .or. .not. run%time < end_time) return
+         call find_largest(p, next%u(1:n)**2 + next%v(1:n)**2, who)
+         call problem%raise(exit_numerics, 'the time step is only '//short(run%dt)//' long in step '//moment(run) &
+                            //'; fastest: '//who//'; a smaller limit of &model may help')
       end associate
    end subroutine check_step
 
-   subroutine explain_loss(model, p, run, problem)
+   ! Words on the particle that has most of something.
+   subroutine find_largest(p, values, words)
+      type(particles_t), intent(in) :: p
+      real(dp), intent(in) :: values(:)   !! (n_own)
+      character(:), allocatable, intent(out) :: words
+      integer :: i
+
+      words = ''
+      i = maxloc(values, 1, p%id(1:p%n_own) > 0)
+      if (i > 0) words = particle(p, i)
+      if (i > 0) call text_of_largest(values(i), words)
+      if (i == 0) call text_of_largest(-huge(1.0_dp), words)
+   end subroutine find_largest
+
+   function loss_text(model, p, run) result(words)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(step_t), intent(in) :: run
-      type(failure), intent(inout) :: problem
+      character(:), allocatable :: words
       character(7) :: what
 
       associate (i => run%lost_slot, next => p%next)
          what = 'density'
          if (.not. norm2([next%u(i), next%v(i)]) < fastest*model%c0) what = 'speed'
-         call problem%raise(exit_numerics, 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i) &
-                            //', has speed/c0 '//to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 ' &
-                            //to_text(next%s(i)/model%rho0)//remedy(model, p%base%x(i), p%base%y(i)))
+         words = 'the '//trim(what)//' left its range in step '//moment(run)//': '//particle(p, i)//', has speed/c0 ' &
+                 //to_text(norm2([next%u(i), next%v(i)])/model%c0)//' and (rho - rho0)/rho0 '//to_text(next%s(i)/model%rho0) &
+                 //remedy(model, p%base%x(i), p%base%y(i))
       end associate
-   end subroutine explain_loss
+   end function loss_text
 
    ! What may help; nothing that a smaller step could do helps where fluid falls out of the box.
    pure function remedy(model, x, y) result(words)

@@ -1,6 +1,7 @@
 !> What the steps of a run leave behind, besides the particles.
 module step_state
    use archive, only: archive_t
+   use communication, only: largest_of_all
    use equation_of_state, only: specific_pressure
    use kinds, only: dp, i8
    use model, only: model_t
@@ -30,6 +31,7 @@ module step_state
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
       real(dp) :: largest_mach = 0          !! over all steps
       real(dp) :: largest_variation = 0     !! over all steps
+      logical :: lost = .false.             !! some particle's state left its range (not kept: then all ends)
       integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none (not kept: then all ends)
       logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
    contains
@@ -64,18 +66,18 @@ contains
    end subroutine archive_step
 
    !> Extremes of the state that the run starts with; steps take those of the states they end with.
-   pure subroutine start_extremes(model, p, run)
+   subroutine start_extremes(model, p, run)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p         !! base state
       type(step_t), intent(inout) :: run
-      real(dp) :: speed_2, pressure, largest_s   ! pressure: p/rho
+      real(dp) :: largest(3)   ! |u|**2, p/rho, |rho - rho0|
 
       associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
-         speed_2 = maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own)
-         pressure = maxval(specific_pressure(model%c0, model%rho0, s), mask=own)
-         largest_s = maxval(abs(s), mask=own)
+         largest = [maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own), &
+                    maxval(specific_pressure(model%c0, model%rho0, s), mask=own), maxval(abs(s), mask=own)]
       end associate
-      call take_extremes(model, speed_2, pressure, largest_s, run)
+      call largest_of_all(3, largest)
+      call take_extremes(model, largest(1), largest(2), largest(3), run)
    end subroutine start_extremes
 
    !> Extremes of a state, and what they make of the largest so far.

@@ -4,15 +4,14 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
-   use candidates, only: block_groups
+   use communication, only: any_process, largest_of_all
    use dissipation_sums, only: sum_dissipation
    use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
    use integrators, only: most_stages
-   use image_laws, only: as_gradient, as_scalar
-   use images, only: fill_ghosts, fill_slip
+   use images, only: begin_fill, fill_ghosts, fill_slip, finish_fill
    use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
@@ -22,7 +21,7 @@ module time_step
    use search_margins, only: lists_hold, lists_reach, plan_t, planned, watch_margins, widen_margins
    use step_state, only: step_t, take_extremes
    use strips, only: group_slots
-   use timers, only: timers_t
+   use timers, only: timers_t, wall_seconds
    implicit none
    private
 
@@ -71,12 +70,11 @@ contains
       type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
 
-      sorts_next = run%step == 0
-      if (.not. sorts_next) sorts_next = .not. lists_hold(near, run%dt)
+      sorts_next = run%step == 0 .or. .not. near%lasts
    end function sorts_next
 
    !> What it sorts them for.
-   pure type(plan_t) function plan_next(model, near, run) result(plan)
+   type(plan_t) function plan_next(model, near, run) result(plan)
       type(model_t), intent(in) :: model
       type(neighbours_t), intent(in) :: near
       type(step_t), intent(in) :: run
@@ -170,12 +168,14 @@ contains
    end function in_reach
 
    ! The step of eq. 8 and the diffusive limits.
-   pure real(dp) function stable_step(model, blocks)
+   real(dp) function stable_step(model, blocks)
       type(model_t), intent(in) :: model
       type(block_t), intent(in) :: blocks(:)
+      real(dp) :: largest(3)
 
-      stable_step = model%step_limit(maxval(blocks%largest_pi), model%alpha + maxval(blocks%largest_alpha), &
-                                     maxval(blocks%largest_delta))
+      largest = max(0.0_dp, [maxval(blocks%largest_pi), maxval(blocks%largest_alpha), maxval(blocks%largest_delta)])
+      call largest_of_all(size(largest), largest)
+      stable_step = model%step_limit(largest(1), model%alpha + largest(2), largest(3))
    end function stable_step
 
    ! Sorts the unchanged base state again, for the step that is known now.
@@ -197,23 +197,18 @@ contains
    subroutine first_sums(model, p, near, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(block_t), intent(inout) :: blocks(:)
+      real(dp) :: started
       integer :: b
 
+      started = wall_seconds()
       !$omp parallel do default(none) shared(model, p, near, blocks) schedule(dynamic)
       do b = 1, near%n_blocks
          call begin_frozen_terms(model, p, near, b, blocks(b))
       end do
       !$omp end parallel do
-      if (p%features%diffusion) then
-         call fill_ghosts(near%images, as_gradient(model%box, 1), p%grad_x)
-         call fill_ghosts(near%images, as_gradient(model%box, 2), p%grad_y)
-      end if
-      if (model%dynamic) then
-         call fill_ghosts(near%images, as_scalar, p%alpha)
-         call fill_ghosts(near%images, as_scalar, p%delta)
-      end if
+      near%division%busy = near%division%busy + wall_seconds() - started
    end subroutine first_sums
 
    ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
@@ -259,7 +254,9 @@ contains
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
       ! A solution that has left its range by so much is no better the second time.
-      if (any(blocks%lost_slot > 0) .and. near%stray > model%kernel%support) strayed = .false.
+      if (near%stray > model%kernel%support) then
+         if (any_process(any(blocks%lost_slot > 0))) strayed = .false.
+      end if
    end subroutine stages
 
    ! The power of walls that move, as a stage's part of the step's.
@@ -289,7 +286,7 @@ contains
       logical :: enough
 
       time = model%integrator%ahead(stage)*run%dt
-      if (lists_reach(near, time, changes(:, stage))) return
+      if (.not. any_process(.not. lists_reach(near, time, changes(:, stage)))) return
       call timers%start(phase_sort)
       call widen_margins(near, time, changes(:, stage), changes(:, 1), enough)
       strayed = strayed .or. .not. enough
@@ -304,22 +301,35 @@ contains
    subroutine first_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(moment_t), intent(in) :: moment
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
-      integer :: b, i0, n
+      real(dp) :: started
+      integer :: b, i0, k, n, part, span(2)
 
-      !$omp parallel do default(none) shared(model, p, near, moment, blocks) private(i0, n, rates) schedule(dynamic)
-      do b = 1, near%n_blocks
-         i0 = near%blocks(b)%before
-         n = nl*near%blocks(b)%n_clusters
-         call complete_frozen_terms(model, p, near, b, blocks(b))
-         if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
-         call take_kept(p%next, i0, n, rates)
-         call update_block(model, p, i0, n, moment, rates, blocks(b))
+      call begin_fill(near%images, model%box, p)
+      do part = 1, 2
+         if (part == 2) then
+            started = wall_seconds()
+            call finish_fill(near%images, model%box, p)
+            near%division%waiting = near%division%waiting + wall_seconds() - started
+         end if
+         span = near%part(part)
+         started = wall_seconds()
+         !$omp parallel do default(none) shared(model, p, near, moment, blocks, span) private(b, i0, n, rates) schedule(dynamic)
+         do k = span(1), span(2)
+            b = near%order(k)
+            i0 = near%blocks(b)%before
+            n = nl*near%blocks(b)%n_clusters
+            call complete_frozen_terms(model, p, near, b, blocks(b))
+            if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
+            call take_kept(p%next, i0, n, rates)
+            call update_block(model, p, i0, n, moment, rates, blocks(b))
+         end do
+         !$omp end parallel do
+         near%division%busy = near%division%busy + wall_seconds() - started
       end do
-      !$omp end parallel do
    end subroutine first_stage
 
    ! Rates of a block that a state's velocity and density have kept.
@@ -337,25 +347,37 @@ contains
    subroutine later_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(moment_t), intent(in) :: moment   !! of stage 2 or later
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
-      integer :: b, i0, n, now
+      real(dp) :: started
+      integer :: b, i0, k, n, now, part, span(2)
 
       now = stage_state(moment%stage)
-      call fill_ghosts(near%images, moment%box, p%stage(now))
-      !$omp parallel do default(none) shared(model, p, near, moment, now, blocks) &
-      !$omp private(i0, n, sums, rates) schedule(dynamic)
-      do b = 1, near%n_blocks
-         i0 = near%blocks(b)%before
-         n = nl*near%blocks(b)%n_clusters
-         call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
-         call flow_rates(model, p%stage(now), i0, n, sums, rates)
-         call update_block(model, p, i0, n, moment, rates, blocks(b))
+      call begin_fill(near%images, moment%box, p%stage(now))
+      do part = 1, 2
+         if (part == 2) then
+            started = wall_seconds()
+            call finish_fill(near%images, moment%box, p%stage(now))
+            near%division%waiting = near%division%waiting + wall_seconds() - started
+         end if
+         span = near%part(part)
+         started = wall_seconds()
+         !$omp parallel do default(none) shared(model, p, near, moment, now, blocks, span) &
+         !$omp private(b, i0, n, sums, rates) schedule(dynamic)
+         do k = span(1), span(2)
+            b = near%order(k)
+            i0 = near%blocks(b)%before
+            n = nl*near%blocks(b)%n_clusters
+            call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
+            call flow_rates(model, p%stage(now), i0, n, sums, rates)
+            call update_block(model, p, i0, n, moment, rates, blocks(b))
+         end do
+         !$omp end parallel do
+         near%division%busy = near%division%busy + wall_seconds() - started
       end do
-      !$omp end parallel do
    end subroutine later_stage
 
    ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them.
@@ -377,6 +399,8 @@ contains
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
       call first_sums(model, p, near, of_stage)
+      call begin_fill(near%images, model%box, p)
+      call finish_fill(near%images, model%box, p)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
       do b = 1, near%n_blocks
          call complete_frozen_terms(model, p, near, b, of_stage(b))
@@ -401,45 +425,62 @@ contains
    ! Sums over each strip, and over these exact: neither threads nor the order of strips matter.
    subroutine collect(model, near, run, last_time, blocks)
       type(model_t), intent(in) :: model
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(block_t), intent(in) :: blocks(:)
-      real(dp), allocatable :: powers(:, :)
-      real(dp) :: totals(5), moving_walls
+      real(dp), allocatable :: sums(:, :)   ! of each strip
+      real(dp) :: totals(7), largest(7), moving_walls
       integer :: k
 
-      if (run%dt < model%advective_limit(maxval(blocks%largest_pi)) .and. run%time + run%dt < last_time) &
-         run%limited = run%limited + 1
-      allocate (powers(5, near%strips%n))
-      !$omp parallel do default(none) shared(near, blocks, powers) schedule(dynamic, max(1, near%strips%n/256))
-      do k = 1, near%strips%n
-         powers(:, k) = strip_powers(near%strips%slot_start(k), near%strips%slot_start(k + 1) - 1, blocks)
+      allocate (sums(7, size(near%first_block) - 1))
+      !$omp parallel do default(none) shared(near, blocks, sums) schedule(dynamic, max(1, size(near%first_block)/256))
+      do k = 1, size(sums, 2)
+         sums(:5, k) = strip_powers(near, k, blocks)
+         associate (here => blocks(near%first_block(k):near%first_block(k + 1) - 1))
+            sums(6:, k) = [sum(here%crossings), sum(here%singular)]
+         end associate
       end do
       !$omp end parallel do
-      totals = exact_totals(powers)
+      totals = exact_totals(sums)
+      largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), maxval(blocks%largest_pi), &
+                             maxval(near%margins(:near%n_blocks)%next_stray), one_if(any(blocks%lost_slot > 0)), &
+                             one_if(.not. lists_hold(near, run%dt))])
+      call largest_of_all(size(largest), largest)
+      if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
       moving_walls = run%dt*totals(5)
       run%work_alpha = run%work_alpha + totals(1) - moving_walls
       run%work_delta = run%work_delta + totals(2)
       run%work_walls = run%work_walls + totals(3) + moving_walls
       run%work_force = run%work_force + totals(4)
-      run%crossings = run%crossings + sum(blocks%crossings)
-      run%singular = run%singular + sum(blocks%singular)
-      call take_extremes(model, maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), run)
-      run%lost_slot = maxval(blocks%lost_slot)
+      run%crossings = run%crossings + nint(totals(6), i8)
+      run%singular = run%singular + nint(totals(7), i8)
+      call take_extremes(model, largest(1), largest(2), largest(3), run)
+      near%next_stray = largest(5)
+      run%lost_slot = max(0, maxval(blocks%lost_slot))
+      run%lost = largest(6) > 0
+      near%lasts = .not. largest(7) > 0
    end subroutine collect
 
+   pure real(dp) function one_if(statement)
+      logical, intent(in) :: statement
+
+      one_if = merge(1.0_dp, 0.0_dp, statement)
+   end function one_if
+
    ! The works and the wall power of a strip, group by group.
-   pure function strip_powers(first, last, blocks) result(powers)
-      integer, intent(in) :: first, last   !! slots
+   pure function strip_powers(near, strip, blocks) result(powers)
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: strip   !! counted from the first own one
       type(block_t), intent(in) :: blocks(:)
       real(dp) :: powers(5)
       integer :: b, g
 
       powers = 0
-      do g = (first - 1)/group_slots, last/group_slots - 1
-         b = g/block_groups
-         powers = powers + [blocks(b + 1)%work(g - b*block_groups + 1, :), blocks(b + 1)%wall_power(g - b*block_groups + 1)]
+      do b = near%first_block(strip), near%first_block(strip + 1) - 1
+         do g = 1, nl*near%blocks(b)%n_clusters/group_slots
+            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
+         end do
       end do
    end function strip_powers
 

@@ -6,6 +6,7 @@
 module solution_errors
    use columns, only: columns_t
    use equation_of_state, only: pressure_of
+   use communication, only: largest_of_all
    use exact_sum, only: exact_totals
    use kinds, only: dp
    use model, only: model_t
@@ -118,6 +119,7 @@ contains
       end do
       !$omp end parallel do
       totals = exact_totals(table)
+      call largest_of_all(3, largest)
       sums = sums_t(norms=totals(:n_norms), own=totals(n_norms + 1:), largest=largest)
    end subroutine sum_up
 

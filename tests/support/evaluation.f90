@@ -39,7 +39,7 @@ contains
    subroutine evaluate(model, p, near, found, gradient_box)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(in) :: near
+      type(neighbours_t), intent(inout) :: near
       type(evaluation_t), intent(out) :: found
       type(box_t), intent(in), optional :: gradient_box     !! for the images' gradients, if not the model's
       type(box_t) :: box

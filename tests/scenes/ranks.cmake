@@ -1,0 +1,22 @@
+# One run by several ranks, bit by bit that of one process; and how it ends. Only in a build with MPI.
+if(NOT DYNSPH_MPI)
+   return()
+endif()
+
+set(DYNSPH_MPI_FLAGS --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 CACHE STRING
+   "what mpiexec is told in tests: more ranks than cores, and those that wait give way")
+set(launcher ${MPIEXEC_EXECUTABLE} ${DYNSPH_MPI_FLAGS} ${MPIEXEC_NUMPROC_FLAG})
+function(add_ranks_test case)
+   add_test(NAME ranks_${case} COMMAND ${DYNSPH_BASH} ${scenes}/ranks.bash ${case} $<TARGET_FILE:dynsph> ${PROJECT_SOURCE_DIR}/input ${launcher})
+   file(MAKE_DIRECTORY ${here}/ranks)
+   set_tests_properties(ranks_${case} PROPERTIES WORKING_DIRECTORY ${here}/ranks PROCESSORS 2 TIMEOUT 300)
+endfunction()
+
+file(GLOB inputs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/input ${PROJECT_SOURCE_DIR}/input/*.nml)
+foreach(input IN LISTS inputs)
+   get_filename_component(name ${input} NAME_WE)
+   add_ranks_test(same_bits_${name})
+endforeach()
+foreach(case IN ITEMS past_the_impact every_stage auto goes_on_with_others signal kill stop too_far out_of_balance no_table refusal)
+   add_ranks_test(${case})
+endforeach()
