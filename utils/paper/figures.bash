@@ -28,12 +28,14 @@ last_snapshot() {
    if [ -e "${snapshots[0]}" ] && [ ${#snapshots[@]} -gt "$k" ]; then echo "${snapshots[-1 - k]}"; fi
 }
 # Rows of `dynsph-spectra vorticity` in the largest rectangle that lies inside the fluid of all snapshots, after the rectangle and its
-# lesser side; nothing if there is none.
-enstrophies() { # SNAPSHOT...
-   local rectangle
-   rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "$@" | tr -d , | awk '
+# lesser side; nothing if there is none of 8 dx each way, which a spectrum needs.
+enstrophies() { # D/DX SNAPSHOT...
+   local rectangle size=$1
+   shift
+   rectangle=$("$build/bin/dynsph-spectra" vorticity --overwrite "$@" | tr -d , | awk -v size="$size" '
       NR > 1 { for (k = 1; k <= 4; k++) { x = $(k + 7); if (NR == 2 || (k < 3 ? x > r[k] : x < r[k])) r[k] = x } }
-      END { a = r[3] - r[1]; b = r[4] - r[2]; if (a > 0 && b > 0) printf "%s,%s,%s,%s %s", r[1], r[2], r[3], r[4], a < b ? a : b }')
+      END { a = r[3] - r[1]; b = r[4] - r[2]; side = a < b ? a : b
+            if (side > 8.01/size) printf "%s,%s,%s,%s %s", r[1], r[2], r[3], r[4], side }')
    [ -n "$rectangle" ] || return 0
    "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
 }
@@ -53,7 +55,7 @@ noise_at() { # D/DX
    for back in 4 3 2 1 0; do
       snapshots=()
       for model in $noise_models; do snapshots+=("$(last_snapshot "dam_${model}_ma_0.1_$size" $back)"); done
-      enstrophies "${snapshots[@]}" | sed "s/^/$back /"
+      enstrophies "$size" "${snapshots[@]}" | sed "s/^/$back /"
    done >"$scratch/enstrophies"
    # The table is of the last snapshots; the facts are of those whose rectangle has room for two waves of the number pi/(2h), h = 2 dx.
    awk -v models="$noise_models" -v size="$size" -v facts="$file" '
