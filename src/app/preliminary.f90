@@ -192,7 +192,8 @@ contains
       call refresh(model, p, near, run, timers)
       do while (.not. run%scattered)
          call watch_speeds(model, p, run, found)
-         call stop%look(directory)
+         call stop%watch(directory)
+         call stop%agree()
          if (run%time >= scene%time%end_time .or. stop%reason /= '') exit
          call advance(model, p, near, run, scene%time%end_time, timers)
          call check_step(model, p, run, scene%time%end_time, trouble)

@@ -263,6 +263,7 @@ contains
          call advance(model, state%p, state%near, state%step, scene%time%end_time, timers)
          call check_step(model, state%p, state%step, scene%time%end_time, problem)
          if (.not. problem%raised()) then
+            call stop%watch(directory)
             call saving%watch(state%step%step, state%step%time, before%time)
             call timers%start(phase_output)
             if (sorts_next(state%near, state%step)) &
@@ -303,12 +304,12 @@ contains
       type(run_state_t), intent(inout) :: state
       type(checkpoints_t), intent(inout) :: saving
       type(stopping_t), intent(inout) :: stop
-      type(result_directory_t), intent(inout) :: directory
+      type(result_directory_t), intent(in) :: directory
       logical, intent(inout) :: saved         !! the run shall stop, and now it can
       type(failure), intent(inout) :: problem
       logical :: wanted
 
-      call stop%look(directory)
+      call stop%agree()
       call saving%look_at_clock()
       wanted = saving%wanted(scene, model, state, stop%reason /= '')
       if (.not. wanted) return

@@ -22,7 +22,8 @@ module stopping
       real(dp), private :: longest = 0                  ! [s] max_wall_time; 0: endless
    contains
       procedure :: begin
-      procedure :: look
+      procedure :: watch
+      procedure :: agree
       procedure :: finish
    end type stopping_t
 
@@ -43,17 +44,22 @@ contains
       call self%signals%hold()
    end subroutine begin
 
-   !> Looks whether the run shall stop; a reason that was found stays.
-   subroutine look(self, directory)
+   !> Looks whether the run shall stop; a reason that was found stays. Of this process: to be called often, because a second signal
+   !! acts at once, and the directory's lock must not look dead.
+   subroutine watch(self, directory)
       class(stopping_t), intent(inout) :: self
       type(result_directory_t), intent(inout) :: directory
 
-      if (self%reason /= '') return
-      call find_reason(self, directory)
-      call text_of_any(self%reason)
-   end subroutine look
+      if (self%reason == '') call find_reason(self, directory)
+   end subroutine watch
 
-   ! Of this process.
+   !> What one process has seen all know. To be called by all.
+   subroutine agree(self)
+      class(stopping_t), intent(inout) :: self
+
+      call text_of_any(self%reason)
+   end subroutine agree
+
    subroutine find_reason(self, directory)
       class(stopping_t), intent(inout) :: self
       type(result_directory_t), intent(inout) :: directory
