@@ -32,7 +32,7 @@ same_bits_*)
    scene=$input/${case#same_bits_}.nml
    short+=(--set "scene.resolution=$(size_of "$scene")" "$scene")
    "$dynsph" --quiet --output one "${short[@]}" 2>/dev/null
-   for n in 2 3; do
+   for n in 2 3 4 7; do
       ranks $n --output "$n" "${short[@]}" 2>/dev/null
       same one $n
    done ;;

@@ -20,3 +20,10 @@ endforeach()
 foreach(case IN ITEMS past_the_impact every_stage auto goes_on_with_others signal kill stop too_far out_of_balance no_table refusal)
    add_ranks_test(${case})
 endforeach()
+
+# The suite of module `communication`, which runs with one process among the fast tests.
+foreach(n IN ITEMS 2 3)
+   add_test(NAME ranks_talk_${n} COMMAND ${launcher} ${n} $<TARGET_FILE:test_communication>)
+   set_tests_properties(ranks_talk_${n} PROPERTIES PROCESSORS 2 TIMEOUT 60
+      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;GOMP_SPINCOUNT=1000")
+endforeach()
