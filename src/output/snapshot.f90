@@ -2,10 +2,11 @@
 !! and later open it without a plug-in, h5py users find named arrays with units.
 module snapshot
    use, intrinsic :: iso_fortran_env, only: int8
-   use communication, only: largest_of_all, n_processes, sums_of_all, this_process
+   use communication, only: largest_of_all, n_processes, this_process
    use errors, only: failure
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: dp, i8, sp
+   use row_parts, only: rows_before
    implicit none
    private
 
@@ -118,12 +119,10 @@ contains
       integer(i8), allocatable :: before(:)
       integer(i8) :: total(1), i
 
-      allocate (before(n_processes()), source=0_i8)
-      before(this_process() + 1) = n_here
-      call sums_of_all(size(before), before)
-      total = sum(before)   ! of all
-      before(1) = sum(before(:this_process()))
-      numbers = [(before(1) + i, i=0, n_here - 1)]
+      allocate (before(0:n_processes()))
+      before(:) = rows_before(int(n_here, i8))
+      total = before(n_processes())   ! of all
+      numbers = [(before(this_process()) + i, i=0, n_here - 1)]
       allocate (types(n_here), source=vtk_vertex)
       call file%put_longs(grid//'/NumberOfPoints', total, in_parts=.false.)
       call file%put_longs(grid//'/NumberOfCells', total, in_parts=.false.)
