@@ -3,7 +3,7 @@ module checkpoints
    use cadence, only: cadence_t
    use checkpoint_file, only: checkpoint_file_t
    use common_files, only: exists_for_all
-   use communication, only: any_process, is_first
+   use communication, only: is_first
    use errors, only: failure
    use file_system, only: longest_path, secure_path
    use kinds, only: dp, i8
@@ -34,7 +34,7 @@ module checkpoints
    contains
       procedure :: start
       procedure :: watch
-      procedure :: look_at_clock
+      procedure :: is_due_by_clock
       procedure :: write => write_checkpoint
       procedure :: wanted
       procedure :: any_written
@@ -69,21 +69,21 @@ contains
    end function any_written
 
    !> Looks whether one is due; it is written as soon as the particles are about to be sorted.
-   subroutine watch(self, step, time, time_before)
+   subroutine watch(self, step, time, time_before, by_clock)
       class(checkpoints_t), intent(inout) :: self
       integer, intent(in) :: step
       real(dp), intent(in) :: time, time_before
+      logical, intent(in) :: by_clock   !! of some process, as all know by now
 
-      self%due = self%due .or. self%when%is_due(step, time, time_before)
+      self%due = self%due .or. by_clock .or. self%when%is_due(step, time, time_before)
    end subroutine watch
 
-   !> Looks whether one is due by the clock.
-   subroutine look_at_clock(self)
-      class(checkpoints_t), intent(inout) :: self
+   !> Whether one is due by the clock of this process.
+   logical function is_due_by_clock(self)
+      class(checkpoints_t), intent(in) :: self
 
-      if (.not. self%due) self%due = self%when%is_due_by_clock(wall_seconds() - self%last)
-      self%due = any_process(self%due)
-   end subroutine look_at_clock
+      is_due_by_clock = self%when%is_due_by_clock(wall_seconds() - self%last)
+   end function is_due_by_clock
 
    !> Whether one is to be written where the particles are about to be sorted. At the end of a run this comes shortly before it,
    !! because the last step may be shorter than one of a run that goes on.

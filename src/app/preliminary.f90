@@ -183,6 +183,7 @@ contains
       type(progress_t) :: progress
       type(failure) :: trouble
       integer :: threads_before
+      logical :: stops(1)
 
       call timers%initialise([character(24) :: 'sort', 'gradients', 'diffusion', 'stages'])
       model = set_up_model(scene)
@@ -193,9 +194,11 @@ contains
       do while (.not. run%scattered)
          call watch_speeds(model, p, run, found)
          call stop%watch(directory)
-         call stop%agree()
-         if (run%time >= scene%time%end_time .or. stop%reason /= '') exit
-         call advance(model, p, near, run, scene%time%end_time, timers)
+         if (run%time >= scene%time%end_time) exit
+         stops = stop%reason /= ''
+         call advance(model, p, near, run, scene%time%end_time, timers, stops)
+         if (stops(1)) call stop%agree()
+         if (stops(1)) exit
          call check_step(model, p, run, scene%time%end_time, trouble)
          if (trouble%raised()) exit
          call refresh(model, p, near, run, timers)

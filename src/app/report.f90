@@ -334,6 +334,7 @@ contains
          call file%add('largest_load_over_mean', largest(1)*n_processes()/busy(1))
          call file%add('share_of_time_busy', busy(1)/n_processes()/seconds)
          call file%add('largest_share_of_time_waiting', largest(2)/seconds)
+         call file%add('columns_of_copies', int(division%margin))
          call file%add('messages_a_step_and_rank', real(sent(1), dp)/steps/n_processes())
          call file%add('bytes_a_step_and_rank', real(sent(2), dp)/steps/n_processes())
          call file%add('reductions_a_step', real(waits, dp)/steps)

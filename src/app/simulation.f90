@@ -246,6 +246,8 @@ contains
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
       type(step_t) :: before
+      integer, parameter :: cannot_write = 1, shall_stop = 2, checkpoint_due = 3
+      logical :: notes(3)   ! of what single processes know
       logical :: saved   ! this state, because the run shall stop
 
       call progress%start(state%step%time, scene%time%end_time, state%step%step, state%p%n)
@@ -257,17 +259,29 @@ contains
          call timers%start(phase_output)
          call state%recorder%record(scene, model, state%p, state%near, state%step, directory, status /= '', problem)
          call timers%stop(phase_output)
-         if (problem%raised()) status = 'failed: output'
-         if (status /= '') exit
+         if (status /= '') then
+            call problem%tell()
+            if (problem%raised()) status = 'failed: output'
+            exit
+         end if
          before = state%step
-         call advance(model, state%p, state%near, state%step, scene%time%end_time, timers)
+         call stop%watch(directory)
+         notes = [problem%raised(), stop%reason /= '', saving%is_due_by_clock()]
+         call advance(model, state%p, state%near, state%step, scene%time%end_time, timers, notes)
+         if (notes(cannot_write)) then
+            call problem%tell()
+            status = 'failed: output'
+            state%step = before   ! the last one that was recorded
+            exit
+         end if
          call check_step(model, state%p, state%step, scene%time%end_time, problem)
          if (.not. problem%raised()) then
-            call stop%watch(directory)
-            call saving%watch(state%step%step, state%step%time, before%time)
+            call saving%watch(state%step%step, state%step%time, before%time, notes(checkpoint_due))
             call timers%start(phase_output)
-            if (sorts_next(state%near, state%step)) &
+            if (sorts_next(state%near, state%step)) then
+               if (notes(shall_stop)) call stop%agree()
                call save_if_wanted(scene, model, state, saving, stop, directory, saved, problem)
+            end if
             call timers%stop(phase_output)
             if (problem%raised() .and. problem%code == exit_files) then
                status = 'failed: output'
@@ -309,8 +323,6 @@ contains
       type(failure), intent(inout) :: problem
       logical :: wanted
 
-      call stop%agree()
-      call saving%look_at_clock()
       wanted = saving%wanted(scene, model, state, stop%reason /= '')
       if (.not. wanted) return
       call swap_states(state%p%base, state%p%next)

@@ -6,8 +6,8 @@ module communication
    private
 
    public :: start_processes, end_processes, all_end, end_all, n_processes, this_process, processes_here, is_first, &
-      library_words, reductions, any_process, largest_of_all, sums_of_all, exchange_counts, exchange, exchange_t, tell_all, &
-      to_first, from_process
+      library_words, reductions, any_process, largest_of_all, sums_of_all, combine, exchange_counts, exchange, exchange_t, &
+      tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -16,6 +16,7 @@ module communication
    contains
       procedure :: make_room
       procedure :: start
+      procedure :: go_on
       procedure :: finish
    end type exchange_t
 
@@ -96,6 +97,15 @@ contains
       numbers = numbers
    end subroutine sums_of_all
 
+   !> Both in one reduction: each number becomes its sum over all processes, each value its largest.
+   pure subroutine combine(numbers, values)
+      integer(i8), contiguous, intent(inout) :: numbers(:)
+      real(dp), contiguous, intent(inout) :: values(:)
+
+      numbers = numbers
+      values = values
+   end subroutine combine
+
    !> Tells each process a number.
    pure subroutine exchange_counts(outgoing, incoming)
       integer, intent(in) :: outgoing(0:)    !! (processes) for each
@@ -130,6 +140,13 @@ contains
 
       self%incoming = self%outgoing
    end subroutine start
+
+   !> Lets messages go on that need a hand.
+   pure subroutine go_on(self)
+      class(exchange_t), intent(inout) :: self
+
+      if (size(self%incoming) == 0) return
+   end subroutine go_on
 
    !> Waits until `incoming` is there, and `outgoing` may change again.
    pure subroutine finish(self)

@@ -2,20 +2,22 @@
 !!
 !! Buffers are contiguous and stay where they are until messages have arrived: gfortran's MPI modules take no others.
 module communication
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: dp, i8
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_alltoall, mpi_bcast, mpi_byte, mpi_character, mpi_comm, mpi_comm_dup, &
-      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
+      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, mpi_datatype, &
       mpi_double_precision, mpi_finalize, mpi_get_library_version, mpi_ibarrier, mpi_in_place, mpi_info_null, mpi_init_thread, &
       mpi_initialized, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_logical, mpi_lor, mpi_max, &
-      mpi_max_library_version_string, mpi_recv, mpi_request, mpi_send, mpi_status_ignore, mpi_statuses_ignore, mpi_sum, &
-      mpi_test, mpi_thread_funneled, mpi_waitall, mpi_wtime
+      mpi_max_library_version_string, mpi_op, mpi_op_create, mpi_recv, mpi_request, mpi_send, mpi_status_ignore, &
+      mpi_statuses_ignore, mpi_sum, mpi_test, mpi_testall, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
+      mpi_type_free, mpi_waitall, mpi_wtime
    implicit none
    private
 
    public :: start_processes, end_processes, all_end, end_all, n_processes, this_process, processes_here, is_first, &
-      library_words, reductions, any_process, largest_of_all, sums_of_all, exchange_counts, exchange, exchange_t, tell_all, &
-      to_first, from_process
+      library_words, reductions, any_process, largest_of_all, sums_of_all, combine, exchange_counts, exchange, exchange_t, &
+      tell_all, to_first, from_process
 
    !> Numbers on their way to and from the others.
    type :: exchange_t
@@ -23,16 +25,21 @@ module communication
       integer(i8) :: messages = 0, bytes = 0              !! sent so far
       integer, allocatable, private :: out_end(:), in_end(:)   ! (-1:processes-1)
       type(mpi_request), allocatable, private :: requests(:)
-      integer, private :: n = 0
+      integer, private :: n = 0                           ! requests
+      logical, private :: arrived = .true.
    contains
       procedure :: make_room
       procedure :: start
+      procedure :: go_on
       procedure :: finish
    end type exchange_t
 
    integer, save :: n_started = 1, rank = 0
    integer(i8), save :: n_reductions = 0
    type(mpi_comm), save :: farewell   !! of messages at the end alone: they must not meet others
+   type(mpi_op), save :: combination          !! of records: combine_records
+   type(mpi_datatype), save :: record         !! of `record_length` integers
+   integer, save :: record_length = 0
    real(dp), parameter :: patience = 10   !! [s] that processes may end one after the other
 
 contains
@@ -151,6 +158,49 @@ contains
       call mpi_allreduce(mpi_in_place, numbers, n, mpi_integer8, mpi_sum, mpi_comm_world)
    end subroutine sums_of_all
 
+   !> Both in one reduction: each number becomes its sum over all processes, each value its largest.
+   subroutine combine(numbers, values)
+      integer(i8), contiguous, intent(inout) :: numbers(:)
+      real(dp), contiguous, intent(inout) :: values(:)
+      integer(i8) :: buffer(2 + size(numbers) + size(values))
+
+      if (n_processes() == 1) return
+      n_reductions = n_reductions + 1
+      if (record_length /= size(buffer)) then
+         if (record_length == 0) call mpi_op_create(combine_records, .true., combination)
+         if (record_length > 0) call mpi_type_free(record)
+         record_length = size(buffer)
+         call mpi_type_contiguous(record_length, mpi_integer8, record)
+         call mpi_type_commit(record)
+      end if
+      buffer = [int([size(numbers), size(values)], i8), numbers, transfer(values, numbers)]
+      call mpi_allreduce(mpi_in_place, buffer, 1, record, combination, mpi_comm_world)
+      numbers = buffer(3:2 + size(numbers))
+      values = transfer(buffer(3 + size(numbers):), values)
+   end subroutine combine
+
+   ! Of MPI: what two processes have. A record tells how many sums and largest values are in it.
+   subroutine combine_records(theirs, ours, n, kind)
+      type(c_ptr), value :: theirs, ours
+      integer :: n   !! records
+      type(mpi_datatype) :: kind   !! `record`
+      integer(i8), pointer, contiguous :: a(:), b(:)
+      integer :: k, first, sums, length
+
+      length = merge(record_length, 0, kind%mpi_val == record%mpi_val)
+      call c_f_pointer(theirs, a, [n*length])
+      call c_f_pointer(ours, b, [n*length])
+      do first = 0, (n - 1)*length, length
+         sums = int(b(first + 1))
+         do k = first + 3, first + 2 + sums
+            b(k) = a(k) + b(k)
+         end do
+         do k = first + 3 + sums, first + length
+            b(k) = transfer(max(transfer(a(k), 1.0_dp), transfer(b(k), 1.0_dp)), b(k))
+         end do
+      end do
+   end subroutine combine_records
+
    !> Tells each process a number.
    subroutine exchange_counts(outgoing, incoming)
       integer, intent(in) :: outgoing(0:)    !! (processes) for each
@@ -208,6 +258,7 @@ contains
       integer :: process
 
       self%n = 0
+      self%arrived = .false.
       do process = 0, ubound(self%in_end, 1)
          associate (first => self%in_end(process - 1) + 1, last => self%in_end(process))
             if (last >= first) call receive(self, process, last - first + 1, self%incoming(first:last))
@@ -241,11 +292,19 @@ contains
       call mpi_isend(buffer, length, mpi_double_precision, process, 0, mpi_comm_world, self%requests(self%n))
    end subroutine send
 
+   !> Lets messages go on that need a hand.
+   subroutine go_on(self)
+      class(exchange_t), intent(inout), asynchronous :: self
+
+      if (.not. self%arrived) call mpi_testall(self%n, self%requests, self%arrived, mpi_statuses_ignore)
+   end subroutine go_on
+
    !> Waits until `incoming` is there, and `outgoing` may change again.
    subroutine finish(self)
       class(exchange_t), intent(inout), asynchronous :: self
 
-      call mpi_waitall(self%n, self%requests, mpi_statuses_ignore)
+      if (.not. self%arrived) call mpi_waitall(self%n, self%requests, mpi_statuses_ignore)
+      self%arrived = .true.
    end subroutine finish
 
    !> All get the text of one of them.

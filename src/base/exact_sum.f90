@@ -10,7 +10,7 @@ module exact_sum
    implicit none
    private
 
-   public :: exact_sum_t, exact_totals, add_over_processes
+   public :: exact_sum_t, exact_sums, exact_totals, add_over_processes, integers_of, take_integers
 
    integer, parameter :: digit_bits = 32
    integer(i8), parameter :: digit_mask = 2_i8**digit_bits - 1
@@ -161,29 +161,49 @@ contains
                    .or. ibits(digit(place/digit_bits), 0, mod(place, digit_bits)) /= 0
    end function bits_below
 
-   !> Each sum becomes that of all processes.
-   subroutine add_over_processes(sums)
-      type(exact_sum_t), intent(inout) :: sums(:)
-      integer(i8) :: numbers(n_digits + 3, size(sums))
+   !> All that sums are, so that those of other processes can be added, integer by integer.
+   pure function integers_of(sums) result(numbers)
+      type(exact_sum_t), intent(in) :: sums(:)
+      integer(i8) :: numbers((n_digits + 3)*size(sums))
+      type(exact_sum_t) :: one
       integer :: k
 
       do k = 1, size(sums)
-         call carry_on(sums(k))
-         numbers(:, k) = [sums(k)%digit, sums(k)%infinite, sums(k)%undefined]
+         one = sums(k)
+         call carry_on(one)
+         numbers((n_digits + 3)*(k - 1) + 1:(n_digits + 3)*k) = [one%digit, one%infinite, one%undefined]
       end do
-      call sums_of_all(size(numbers), numbers)
+   end function integers_of
+
+   !> The other way round.
+   pure subroutine take_integers(numbers, sums)
+      integer(i8), intent(in) :: numbers(:)
+      type(exact_sum_t), intent(out) :: sums(:)
+      integer :: k
+
       do k = 1, size(sums)
-         sums(k)%digit = numbers(:n_digits, k)
-         sums(k)%infinite = numbers(n_digits + 1:n_digits + 2, k)
-         sums(k)%undefined = numbers(n_digits + 3, k)
+         associate (one => numbers((n_digits + 3)*(k - 1) + 1:(n_digits + 3)*k))
+            sums(k)%digit = one(:n_digits)
+            sums(k)%infinite = one(n_digits + 1:n_digits + 2)
+            sums(k)%undefined = one(n_digits + 3)
+         end associate
       end do
+   end subroutine take_integers
+
+   !> Each sum becomes that of all processes.
+   subroutine add_over_processes(sums)
+      type(exact_sum_t), intent(inout) :: sums(:)
+      integer(i8) :: numbers((n_digits + 3)*size(sums))
+
+      numbers = integers_of(sums)
+      call sums_of_all(size(numbers), numbers)
+      call take_integers(numbers, sums)
    end subroutine add_over_processes
 
-   !> The sum of each row, with all threads of all processes.
-   function exact_totals(table) result(totals)
+   !> The sum of each row of what this process has, with all threads.
+   function exact_sums(table) result(all)
       real(dp), intent(in) :: table(:, :)   !! (sums, summands)
-      real(dp) :: totals(size(table, 1))
-      type(exact_sum_t) :: mine(size(table, 1)), all(size(table, 1))
+      type(exact_sum_t) :: all(size(table, 1)), mine(size(table, 1))
       integer :: i, k
 
       !$omp parallel default(none) shared(table, all) private(mine, k)
@@ -201,9 +221,19 @@ contains
       end do
       !$omp end critical
       !$omp end parallel
-      call add_over_processes(all)
+   end function exact_sums
+
+   !> The same of all processes.
+   function exact_totals(table) result(totals)
+      real(dp), intent(in) :: table(:, :)   !! (sums, summands)
+      real(dp) :: totals(size(table, 1))
+      type(exact_sum_t) :: sums(size(table, 1))
+      integer :: k
+
+      sums = exact_sums(table)
+      call add_over_processes(sums)
       do k = 1, size(totals)
-         totals(k) = all(k)%value()
+         totals(k) = sums(k)%value()
       end do
    end function exact_totals
 

@@ -209,7 +209,7 @@ contains
       close (unit)
    end function ends_as_kept
 
-   !> Adds a row. NaN and infinities are written as such.
+   !> Adds a row. NaN and infinities are written as such. A failure is the first process's: the caller tells the others.
    subroutine row(self, values, problem)
       class(table_t), intent(inout) :: self
       real(dp), intent(in) :: values(:)         !! (columns)
@@ -217,7 +217,6 @@ contains
 
       if (self%unit == no_unit) return
       if (is_first()) call write_row(self, values, problem)
-      call problem%tell()
    end subroutine row
 
    subroutine write_row(self, values, problem)

@@ -5,12 +5,13 @@ module halo
    use communication, only: exchange_t, n_processes, this_process
    use division, only: division_t, needed_by, owner
    use kinds, only: dp
+   use omp_lib, only: omp_get_thread_num
    use particles, only: particles_t, state_t
    use strips, only: strips_t
    implicit none
    private
 
-   public :: halo_t, find_halo, start_copies, finish_copies
+   public :: halo_t, find_halo, start_copies, finish_copies, let_messages_go_on
 
    !> Slots in a row.
    type :: segment_t
@@ -20,6 +21,7 @@ module halo
    !> What goes to and comes from each process, the slots of one behind those of the other.
    type :: halo_t
       logical :: exists = .false.
+      logical :: hides = .true.   !! what needs no copy is computed while they travel; false for measurements of what that gains
       integer, allocatable, private :: out_end(:), in_end(:)   !! (-1:processes-1) slots until that of a process
       type(segment_t), allocatable, private :: outgoing(:), incoming(:)
       type(exchange_t) :: exchange                             !! on its way
@@ -40,11 +42,14 @@ contains
       type(halo_t), intent(inout) :: self
       type(division_t), intent(in) :: division
       type(strips_t), intent(in) :: strips   !! of all slots held
+      character(2) :: overlap
       integer :: process, k, n
 
       n = n_processes()
       self%exists = n > 1
       if (.not. self%exists) return
+      call get_environment_variable('DYNSPH_OVERLAP', overlap)
+      self%hides = overlap /= 'no'
       if (.not. allocated(self%out_end)) allocate (self%out_end(-1:n - 1), self%in_end(-1:n - 1))
       self%out_end(-1) = 0
       self%in_end(-1) = 0
@@ -74,6 +79,17 @@ contains
       segments = [segments, segment_t(first, last)]
       slots = slots + last - first + 1
    end subroutine append
+
+   !> To be called for each block that is computed between `start_copies` and `finish_copies`: long messages need the sender's and
+   !! the receiver's hand meanwhile. The thread that talks to others looks after some blocks.
+   subroutine let_messages_go_on(self, block)
+      type(halo_t), intent(inout) :: self
+      integer, intent(in) :: block   !! of the blocks, which
+      integer, parameter :: interval = 8
+
+      if (.not. self%exists .or. mod(block, interval) /= 0) return
+      if (omp_get_thread_num() == 0) call self%exchange%go_on()
+   end subroutine let_messages_go_on
 
    ! All that a state has.
    subroutine start_state(self, state)

@@ -5,7 +5,7 @@ module migration
    use division, only: cut, division_t, needed_by
    use kinds, only: dp, i8, sp
    use particles, only: particles_t, reserve_slots
-   use strips, only: strips_t, too_scattered
+   use strips, only: extent_t, strips_t, too_scattered
    implicit none
    private
 
@@ -24,12 +24,13 @@ contains
 
    !> Brings particles to where they are needed. `next` gets those of other processes behind its own slots, and has `n_points` then;
    !! `number` is 0 for those that are not needed here any more.
-   subroutine migrate(self, sorts, strips, p, box, reach, travel, n_points, number, scattered)
+   subroutine migrate(self, sorts, strips, p, box, extent, reach, travel, n_points, number, scattered)
       type(division_t), intent(inout) :: self
       integer, intent(in) :: sorts               !! sorts before this one
       type(strips_t), intent(inout) :: strips    !! of the sort to come; on return with the own places
       type(particles_t), intent(inout) :: p      !! stage(1) has the positions that they are sorted by
       type(box_t), intent(in) :: box
+      type(extent_t), intent(in) :: extent       !! of these positions, at least, and of the velocities of all processes
       real(dp), intent(in) :: reach              !! length at which two particles may matter for each other,
       real(dp), intent(in) :: travel             !! until or since this time
       integer, intent(out) :: n_points
@@ -38,18 +39,18 @@ contains
       type(needs_t) :: needs
       type(exchange_t) :: messages
       integer(i8) :: place(p%n_own), last_place, ends(2)
-      real(dp) :: extremes(4)   ! -least and largest of x, then of u
+      real(dp) :: ends_x(2)
       integer :: i, mine
 
-      extremes = -huge(1.0_dp)
-      do i = 1, p%n_own
-         if (p%id(i) > 0) extremes = max(extremes, [-p%stage(1)%x(i), p%stage(1)%x(i), -p%next%u(i), p%next%u(i)])
-      end do
-      call largest_of_all(size(extremes), extremes)
       n_points = p%n_own
-      scattered = too_scattered(strips, -extremes(1), extremes(2), is_fluid=.true.)
-      if (scattered) return
-      ends = strips%place_of([-extremes(1), extremes(2)])
+      ends_x = [extent%lower(1), extent%upper(1)]
+      scattered = too_scattered(strips, ends_x(1), ends_x(2), is_fluid=.true.)
+      if (scattered) then
+         call find_ends(p, ends_x)
+         scattered = too_scattered(strips, ends_x(1), ends_x(2), is_fluid=.true.)
+         if (scattered) return
+      end if
+      ends = strips%place_of(ends_x)
       last_place = ends(1)
       do i = 1, p%n_own
          if (p%id(i) > 0) last_place = strips%place_of(p%stage(1)%x(i))
@@ -58,8 +59,7 @@ contains
       ! Where a run goes on, the second sort is the first one of its state.
       if (sorts == 1 .or. mod(sorts, sorts_a_cut) == 0) call cut_anew(self, p%id(:p%n_own), place, ends)
       ! Images across a periodic side, probes and walls stand still, whatever the fluid does.
-      extremes(3:4) = max(0.0_dp, extremes(3:4))
-      self%margin = ceiling((reach + travel*(extremes(4) + extremes(3)))/strips%width, i8) + 1
+      self%margin = ceiling((reach + travel*(max(0.0_dp, extent%fastest(1)) - min(0.0_dp, extent%slowest(1))))/strips%width, i8)
       self%periodic = box%is_periodic(1)
       if (self%periodic) self%ends = strips%place_of(box%at([left_wall, right_wall]))
       strips%own_places = self%own_places()
@@ -76,6 +76,18 @@ contains
       call messages%finish()
       call unpack_particles(messages%incoming, p, n_points, number)
    end subroutine migrate
+
+   ! From where to where the positions are that particles are sorted by.
+   subroutine find_ends(p, ends)
+      type(particles_t), intent(in) :: p
+      real(dp), intent(out) :: ends(2)
+
+      associate (x => p%stage(1)%x(:p%n_own), own => p%id(:p%n_own) > 0)
+         ends = [maxval(-x, own), maxval(x, own)]
+      end associate
+      call largest_of_all(2, ends)
+      ends(1) = -ends(1)
+   end subroutine find_ends
 
    ! Cuts for as much time in each process, as its particles have taken since the last cuts; for as many particles in the beginning.
    subroutine cut_anew(self, id, place, ends)

@@ -18,7 +18,7 @@ module neighbours
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
    use strip_extents, only: measure_strips, take_slack
-   use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
+   use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t, too_scattered
    implicit none
    private
 
@@ -34,7 +34,8 @@ module neighbours
       real(dp) :: stray = 0          !! length until the base state, at most
       real(dp) :: next_stray = 0     !! and until the next one
       real(dp) :: drift = 0          !! max |u - u when sorted|, mean of the last step
-      real(dp) :: acceleration = 0   !! largest since the particles were sorted
+      real(dp) :: acceleration = 0   !! largest since the particles were sorted, until the base state,
+      real(dp) :: next_acceleration = 0   !! and until the next one
    end type margin_t
 
    !> What is near what.
@@ -46,7 +47,8 @@ module neighbours
       real(dp) :: slack = 0     !! that every block has at least
       real(dp) :: slack_time_2 = 0   !! slack of a block for its acceleration
       real(dp) :: image_slack = 0    !! that images were made for: no block may have more
-      real(dp) :: stray = 0, next_stray = 0   !! largest of all blocks, as in margin_t
+      real(dp) :: mean_acceleration = 0, largest_acceleration = 0   !! of all blocks, until the last step's end
+      type(extent_t) :: extent       !! of all particles in x at the last step's end, and of their velocities; empty: not known
       logical :: jumped = .false.    !! a particle went through a periodic side since: the lists are void
       logical :: lasts = .false.     !! the lists serve for the next step
       integer :: n_blocks = 0
@@ -108,7 +110,8 @@ contains
       logical, intent(out) :: scattered    !! some particle is too far away to go on
       integer, allocatable :: number(:)
       integer :: n_points
-      real(dp) :: outwards(4), reach(4), extremes(4)
+      type(extent_t) :: extent
+      real(dp) :: outwards(4), reach(4)
 
       self%tau = span/2
       self%jumped = .false.
@@ -121,46 +124,68 @@ contains
       self%strips%origin = box%at(left_wall)
       if (n_processes() == 1) then
          call sort_into_strips(self%strips, p%n_own, p%id(1:p%n_own), p%stage(1)%x(1:p%n_own), p%stage(1)%y(1:p%n_own), 1, .true.)
+         scattered = self%strips%n < 0
       else
-         call migrate(self%division, self%sorts, self%strips, p, box, kernel%support + 2*self%image_slack, self%image_travel, &
-                      n_points, number, scattered)
-         if (scattered) return
-         call predict(self%tau, p%n_own + 1, n_points, p)
-         call sort_into_strips(self%strips, n_points, number, p%stage(1)%x(1:n_points), p%stage(1)%y(1:n_points), 1, .true.)
+         if (.not. self%extent%lower(1) <= self%extent%upper(1)) self%extent = extent_of_all(p)
+         extent = self%extent
+         extent%lower(1) = extent%lower(1) + self%tau*extent%slowest(1)
+         extent%upper(1) = extent%upper(1) + self%tau*extent%fastest(1)
+         ! A gauge looks half a spacing beside what it measures.
+         call migrate(self%division, self%sorts, self%strips, p, box, extent, kernel%support + 2*self%image_slack + dx/2, &
+                      self%image_travel, n_points, number, scattered)
+         if (.not. scattered) then
+            call predict(self%tau, p%n_own + 1, n_points, p)
+            call sort_into_strips(self%strips, n_points, number, p%stage(1)%x(1:n_points), p%stage(1)%y(1:n_points), 1, .true.)
+         end if
       end if
-      self%sorts = self%sorts + 1
-      scattered = any_process(self%strips%n < 0)
       if (scattered) return
+      self%sorts = self%sorts + 1
       call permute(self, p)
       if (n_processes() > 1) call find_halo(self%images%halo, self%division, self%strips)
       call lay_out_blocks(self)
       call set_margins(self, p)
       self%age = 0
-      self%stray = 0
       call measure_strips(self%strips, p%base)
-      associate (overall => self%strips%overall)
-         extremes = [-overall%slowest, overall%fastest]
-         call largest_of_all(4, extremes)
-         overall%slowest = -extremes(1:2)
-         overall%fastest = extremes(3:4)
-      end associate
+      if (n_processes() == 1) extent = self%strips%overall
+      self%extent = extent_t()
       self%images%strips%width = self%strips%width
       self%images%strips%bin_height = dx   ! images stand in narrow stripes far apart, and many bins are empty
       self%images%strips%origin = self%strips%origin
-      associate (overall => self%strips%overall)
-         ! Others may be beyond a side by what they move outwards, as the side sees it.
-         outwards = [overall%slowest(1), overall%fastest(1), overall%slowest(2), overall%fastest(2)] - box%normal_velocity()
-         outwards = max(0.0_dp, outwards*[-1, 1, -1, 1])
-         if (box%is_periodic(1)) outwards(1:2) = maxval(outwards(1:2))
-         if (box%is_periodic(2)) outwards(3:4) = maxval(outwards(3:4))
-         reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
-      end associate
+      ! Others may be beyond a side by what they move outwards, as the side sees it.
+      outwards = [extent%slowest(1), extent%fastest(1), extent%slowest(2), extent%fastest(2)] - box%normal_velocity()
+      outwards = max(0.0_dp, outwards*[-1, 1, -1, 1])
+      if (box%is_periodic(1)) outwards(1:2) = maxval(outwards(1:2))
+      if (box%is_periodic(2)) outwards(3:4) = maxval(outwards(3:4))
+      reach = kernel%support + 2*self%image_slack + (self%tau + self%image_travel)*outwards
       call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
-      scattered = any_process(self%images%strips%n < 0)
+      scattered = self%images%strips%n < 0
+      ! An image and what it is of are not farther from a side than `reach`.
+      associate (first => extent%lower(1) - 2*maxval(reach), last => extent%upper(1) + 2*maxval(reach))
+         if (too_scattered(self%images%strips, first, last, is_fluid=.false.)) scattered = any_process(scattered)
+      end associate
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
    end subroutine sort_particles
+
+   ! Of the state `next` of all processes, in x.
+   type(extent_t) function extent_of_all(p) result(extent)
+      type(particles_t), intent(in) :: p
+      real(dp) :: extremes(6)
+      integer :: i
+
+      extremes = -huge(1.0_dp)
+      associate (next => p%next)
+         do i = 1, p%n_own
+            if (p%id(i) > 0) extremes = max(extremes, [-next%x(i), next%x(i), -next%u(i), next%u(i), -next%v(i), next%v(i)])
+         end do
+      end associate
+      call largest_of_all(size(extremes), extremes)
+      extent%lower(1) = -extremes(1)
+      extent%upper(1) = extremes(2)
+      extent%slowest = -extremes([3, 5])
+      extent%fastest = extremes([4, 6])
+   end function extent_of_all
 
    ! Where particles will be in the middle of the steps to come.
    subroutine predict(tau, first, last, p)
@@ -186,7 +211,7 @@ contains
 
       self%age = self%age + step
       self%margins%stray = self%margins%next_stray
-      self%stray = self%next_stray
+      self%margins%acceleration = self%margins%next_acceleration
       call swap_states(p%base, p%next)
       call fill_ghosts(self%images, box, p%base)
    end subroutine keep_order
@@ -340,20 +365,15 @@ contains
    !! All particles are displaced by the same time, so two of them come closer by no more than their relative
    !! velocity times `travel`, and what accelerations add: the slack of both. Where lists are made some time after the particles
    !! were sorted, the way that they were on then is known to the `unsure` of their block.
-   subroutine list_neighbours(self, p, kernel, travel, within_step)
+   subroutine list_neighbours(self, p, kernel, travel)
       type(neighbours_t), intent(inout) :: self
-      type(particles_t), intent(inout) :: p   !! base is filled; not changed, but for the first stage's state if that is not needed
+      type(particles_t), intent(inout) :: p   !! base is filled; not changed, but for the first stage's state
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: travel
-      logical, intent(in) :: within_step      !! the states of all stages are needed
       type(state_t) :: predicted              ! and slack in place of the volume
       integer :: b, i
 
-      if (within_step) then
-         allocate (predicted%x(p%capacity), predicted%y(p%capacity), predicted%volume(p%capacity), source=0.0_dp)
-      else
-         call swap_states(predicted, p%stage(1))
-      end if
+      call swap_states(predicted, p%stage(1))
       self%travel = travel
       call spread_slack(self, predicted%volume)
       !$omp parallel default(none) shared(self, p, predicted, kernel, travel) private(i)
@@ -369,7 +389,7 @@ contains
       end do
       !$omp end do
       !$omp end parallel
-      if (.not. within_step) call swap_states(predicted, p%stage(1))
+      call swap_states(predicted, p%stage(1))
       call find_inner(self, p%n_own, p%n_held)
    end subroutine list_neighbours
 
@@ -380,8 +400,8 @@ contains
       logical :: outer(self%n_blocks)
       integer :: b, i, k
 
-      outer = .false.
-      if (self%images%halo%exists) then
+      outer = .not. self%images%halo%hides
+      if (self%images%halo%exists .and. self%images%halo%hides) then
          !$omp parallel do default(none) shared(self, outer, n_own, n_held) private(i, k)
          do b = 1, self%n_blocks
             associate (block => self%blocks(b))

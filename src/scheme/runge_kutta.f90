@@ -10,11 +10,11 @@ module runge_kutta
    use kinds, only: dp, sp
    use model, only: model_t
    use particles, only: particles_t, state_t
-   use strips, only: group_slots
+   use strips, only: extent_t, group_slots
    implicit none
    private
 
-   public :: block_t, moment_t, update_block
+   public :: block_t, moment_t, update_block, watch_changes
 
    ! The state of stage 1 is `base`; those of stages 2 and 3 are in p%stage(1) and (2). That of stage 4 is formed in `next` and
    ! changes places with stage 3's before it is used, so that the end of the step can always be written to `next`, block by block.
@@ -41,12 +41,15 @@ module runge_kutta
       real(dp) :: speed_2 = 0        !! max |u|**2
       real(dp) :: pressure = 0       !! max p/rho
       real(dp) :: largest_s = 0
+      type(extent_t) :: extent       !! in x, and of velocities
       real(dp) :: largest_pi = 0
       real(dp) :: largest_alpha = 0  !! alpha_i of the dynamic model
       real(dp) :: largest_delta = 0  !! delta_i, or delta, times crowding
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0
+      real(dp) :: behind = 0         !! max |u - u when sorted| of the base state,
+      real(dp) :: ahead = 0          !! and some time later, as its first sums have it
       real(dp) :: change(most_stages) = 0   !! of each stage max |u - u when sorted|
       real(dp) :: jump = 0           !! largest way that a wall has put a particle back
       logical :: wrapped = .false.   !! a particle went through a periodic side
@@ -294,6 +297,34 @@ contains
       end do
    end subroutine set_volumes
 
+   !> How far velocities are, and soon will be, from those that the lists were made for.
+   pure subroutine watch_changes(model, p, i0, n, ahead, sums)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(in) :: p     !! `next` keeps the base state's rates, without forces
+      integer, intent(in) :: i0, n           !! slot before the block's first; slots
+      real(dp), intent(in) :: ahead          !! time from the base state on
+      type(block_t), intent(inout) :: sums
+      real(dp) :: u, v, now_2, soon_2, force(2)
+      integer :: i
+
+      force = model%acceleration - [0.0_dp, model%gravity]
+      now_2 = 0
+      soon_2 = 0
+      associate (base => p%base, rates => p%next)
+         !$omp simd private(u, v) reduction(max:now_2, soon_2)
+         do i = i0 + 1, i0 + n
+            u = base%u(i) - p%sorted_u(i)
+            v = base%v(i) - p%sorted_v(i)
+            now_2 = max(now_2, u**2 + v**2)
+            u = u + ahead*(rates%u(i) + force(1))
+            v = v + ahead*(rates%v(i) + force(2))
+            soon_2 = max(soon_2, u**2 + v**2)
+         end do
+      end associate
+      sums%behind = sqrt(now_2)
+      sums%ahead = sqrt(soon_2)
+   end subroutine watch_changes
+
    ! max |u - u when sorted|
    pure real(dp) function largest_change(n, now, u, v)
       integer, intent(in) :: n
@@ -323,7 +354,8 @@ contains
       call cross_sides(model, box, p, i0, n, sums)
       associate (next => p%next, i1 => i0 + 1, i2 => i0 + n)
          call set_volumes(n, model%rho0, p%m(i1:i2), next%s(i1:i2), next%volume(i1:i2))
-         call take_extremes(n, model%c0, model%rho0, p%m(i1:i2), next%u(i1:i2), next%v(i1:i2), next%s(i1:i2), sums, lost)
+         call take_extremes(n, model%c0, model%rho0, p%m(i1:i2), next%x(i1:i2), next%u(i1:i2), next%v(i1:i2), next%s(i1:i2), &
+                            sums, lost)
          if (.not. lost) return
          do i = i1, i2
             if (p%id(i) > 0 .and. .not. within_range(model%c0, model%rho0, next%u(i)**2 + next%v(i)**2, next%s(i))) &
@@ -333,9 +365,9 @@ contains
    end subroutine finish_block
 
    ! Extremes, and whether some particle has left the range of what can be computed.
-   pure subroutine take_extremes(n, c0, rho0, m, u, v, s, sums, lost)
+   pure subroutine take_extremes(n, c0, rho0, m, x, u, v, s, sums, lost)
       integer, intent(in) :: n
-      real(dp), intent(in) :: c0, rho0, m(n), u(n), v(n), s(n)
+      real(dp), intent(in) :: c0, rho0, m(n), x(n), u(n), v(n), s(n)
       type(block_t), intent(inout) :: sums
       logical, intent(out) :: lost
       real(dp) :: speed_2, fastest_2, pressure, largest_s, out
@@ -356,8 +388,29 @@ contains
       sums%speed_2 = max(sums%speed_2, fastest_2)
       sums%pressure = max(sums%pressure, pressure)
       sums%largest_s = max(sums%largest_s, largest_s)
+      associate (extent => sums%extent)
+         call span_of(n, m, x, extent%lower(1), extent%upper(1))
+         call span_of(n, m, u, extent%slowest(1), extent%fastest(1))
+         call span_of(n, m, v, extent%slowest(2), extent%fastest(2))
+      end associate
       lost = out > 0
    end subroutine take_extremes
+
+   ! From which value to which, without dummies.
+   pure subroutine span_of(n, m, values, least, most)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: m(n), values(n)
+      real(dp), intent(out) :: least, most
+      integer :: k
+
+      least = huge(1.0_dp)
+      most = -huge(1.0_dp)
+      !$omp simd reduction(min:least) reduction(max:most)
+      do k = 1, n
+         least = min(least, merge(values(k), huge(1.0_dp), m(k) > 0))
+         most = max(most, merge(values(k), -huge(1.0_dp), m(k) > 0))
+      end do
+   end subroutine span_of
 
    ! Written so that NaN is out of range too. Collapsing cavities reach half the sound speed and density for a moment.
    elemental logical function within_range(c0, rho0, speed_2, s)

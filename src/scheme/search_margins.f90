@@ -5,15 +5,13 @@
 !! that a step computes depends on how long lists are kept but the order in which its sums are taken.
 module search_margins
    use archive, only: archive_t
-   use communication, only: largest_of_all, sums_of_all
-   use exact_sum, only: exact_totals
    use integrators, only: integrator_t
-   use kinds, only: dp, i8
+   use kinds, only: dp
    use neighbours, only: margin_t, neighbours_t
    implicit none
    private
 
-   public :: plan_t, planned, lists_reach, widen_margins, watch_margins, lists_hold
+   public :: plan_t, planned, overreach, widen_margins, watch_margins, lists_hold
 
    integer, parameter :: most_steps = 8           !! that lists are kept for
    real(dp), parameter :: least_slack = 0.02_dp   !! in dx
@@ -21,7 +19,7 @@ module search_margins
    real(dp), parameter :: spread = 0.1_dp         !! of the largest acceleration, which may come to every block
    ! Sorting and listing take a third of the time of a step's pair loops, and a slack of 0.01 dx makes these 1 % longer (measured).
    ! So n steps from one list cost 1/(3 n) + safety a (n dt)**2/(2 dx) of them each: least for this times (dx/(a dt**2))**(1/3).
-   real(dp), parameter :: cheapest = 0.6_dp
+   real(dp), parameter :: cheapest = 0.65_dp
 
    !> What of the lists before matters for those that are made next; besides it, only the particles do.
    type :: plan_t
@@ -53,59 +51,49 @@ contains
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: dt           !! expected step
-      real(dp) :: accelerations(near%n_blocks), total(1), largest(1), steps, mean
-      integer(i8) :: n(1)
+      real(dp) :: steps
 
-      if (near%n_blocks > 0) accelerations = near%margins(:near%n_blocks)%acceleration
-      largest = max(0.0_dp, maxval(accelerations))
-      n = near%n_blocks
-      call largest_of_all(1, largest)
-      call sums_of_all(1, n)
-      total = exact_totals(reshape(max(accelerations, spread*largest(1)), [1, near%n_blocks]))
       steps = 1
-      if (largest(1) > 0) then
-         mean = total(1)/n(1)
-         steps = max(1.0_dp, anint(min(cheapest*(dx/(mean*dt**2))**(1/3.0_dp), real(most_steps, dp))))
-      end if
+      associate (mean => near%mean_acceleration + spread*near%largest_acceleration)
+         if (mean > 0) steps = max(1.0_dp, anint(min(cheapest*(dx/(mean*dt**2))**(1/3.0_dp), real(most_steps, dp))))
+      end associate
       plan%age = near%age
       plan%span = steps*dt
       plan%slack_time_2 = safety*plan%span**2/2
-      plan%slack = max(least_slack*dx, plan%slack_time_2*spread*largest(1))
+      plan%slack = max(least_slack*dx, plan%slack_time_2*spread*near%largest_acceleration)
    end function planned
 
-   !> Whether the lists hold for the state that a stage leads to.
-   pure logical function lists_reach(near, time, changes)
+   !> How far the state that a stage leads to is from where the lists were made for, where they do not hold for it; else 0.
+   pure real(dp) function overreach(near, time, changes) result(farthest)
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: time         !! from the base state
       real(dp), intent(in) :: changes(:)   !! (blocks) max |u - u when sorted| that leads there
-
-      lists_reach = .not. any(near%margins(:near%n_blocks)%stray + time*changes > near%margins(:near%n_blocks)%slack)
-   end function lists_reach
-
-   !> More slack for blocks that go farther in a stage than the lists allow; `enough` unless there are no images for as much.
-   subroutine widen_margins(near, time, changes, base_changes, enough)
-      type(neighbours_t), intent(inout) :: near
-      real(dp), intent(in) :: time              !! as above
-      real(dp), intent(in) :: changes(:)
-      real(dp), intent(in) :: base_changes(:)   !! (blocks) max |u - u when sorted| of the base state
-      logical, intent(out) :: enough
-      real(dp), parameter :: more = 3           ! the last stage may go twice as far, and the step after this one farther
-      real(dp) :: farthest(1)
       integer :: b
 
       farthest = 0
       do b = 1, near%n_blocks
          associate (margin => near%margins(b))
-            margin%unsure = margin%stray + (abs(near%tau - near%age) + near%travel)*base_changes(b)
-            if (margin%stray + time*changes(b) > margin%slack) then
-               farthest(1) = max(farthest(1), margin%stray + time*changes(b))
-               margin%slack = max(margin%slack, min(more*(margin%stray + time*changes(b)), near%image_slack))
-            end if
+            if (margin%stray + time*changes(b) > margin%slack) farthest = max(farthest, margin%stray + time*changes(b))
          end associate
       end do
-      call largest_of_all(1, farthest)
-      enough = farthest(1) <= near%image_slack
-      near%stray = max(near%stray, farthest(1))
+   end function overreach
+
+   !> More slack for blocks that go farther in a stage than the lists allow, for lists that are made anew of the base state.
+   pure subroutine widen_margins(near, time, changes, base_changes)
+      type(neighbours_t), intent(inout) :: near
+      real(dp), intent(in) :: time              !! as above
+      real(dp), intent(in) :: changes(:)
+      real(dp), intent(in) :: base_changes(:)   !! (blocks) max |u - u when sorted| of the base state
+      real(dp), parameter :: more = 3           ! the last stage may go twice as far, and the step after this one farther
+      integer :: b
+
+      do b = 1, near%n_blocks
+         associate (margin => near%margins(b))
+            margin%unsure = margin%stray + (abs(near%tau - near%age) + near%travel)*base_changes(b)
+            if (margin%stray + time*changes(b) > margin%slack) &
+               margin%slack = max(margin%slack, min(more*(margin%stray + time*changes(b)), near%image_slack))
+         end associate
+      end do
    end subroutine widen_margins
 
    !> Where a step leads the particles.
@@ -120,7 +108,7 @@ contains
       n = integrator%stages
       do b = 1, near%n_blocks
          associate (margin => near%margins(b), change => changes(b, :n))
-            margin%acceleration = max(margin%acceleration, maxval(change)/(near%age + dt))
+            margin%next_acceleration = max(margin%acceleration, maxval(change)/(near%age + dt))
             margin%drift = sum(integrator%weight(:n)*change)
             margin%next_stray = margin%stray + dt*margin%drift + jumps(b)
          end associate
@@ -136,7 +124,7 @@ contains
       lists_hold = .not. near%jumped .and. near%age + (1 + longer)*dt <= near%tau + near%travel
       if (near%n_blocks == 0 .or. .not. lists_hold) return
       associate (margins => near%margins(:near%n_blocks))
-         lists_hold = all(margins%next_stray + dt*(margins%drift + margins%acceleration*dt) <= margins%slack)
+         lists_hold = all(margins%next_stray + dt*(margins%drift + margins%next_acceleration*dt) <= margins%slack)
       end associate
    end function lists_hold
 

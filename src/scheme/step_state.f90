@@ -20,8 +20,7 @@ module step_state
       integer(i8) :: singular = 0           !! particle-steps without a density gradient
       integer(i8) :: limited = 0            !! steps shorter than eq. 8, for the diffusive terms' stability
       integer(i8) :: sorted = 0             !! times that particles were sorted and neighbours listed
-      integer(i8) :: relisted = 0           !! times that neighbours were listed anew within a step
-      integer(i8) :: repeated = 0           !! steps repeated, with a larger search margin or shorter
+      integer(i8) :: repeated = 0           !! steps done again, with a larger search margin or shorter
       real(dp) :: work_alpha = 0            !! energy given by viscosity, <= 0
       real(dp) :: work_delta = 0            !! energy given by density diffusion
       real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
@@ -52,7 +51,6 @@ contains
       call file%keep('singular', self%singular)
       call file%keep('limited', self%limited)
       call file%keep('sorted', self%sorted)
-      call file%keep('relisted', self%relisted)
       call file%keep('repeated', self%repeated)
       call file%keep('work_alpha', self%work_alpha)
       call file%keep('work_delta', self%work_delta)

@@ -4,12 +4,11 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
-   use communication, only: any_process, largest_of_all
    use dissipation_sums, only: sum_dissipation
-   use exact_sum, only: exact_totals
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
+   use halo, only: let_messages_go_on
    use integrators, only: most_stages
    use images, only: begin_fill, fill_ghosts, fill_slip, finish_fill
    use kinds, only: dp, i8
@@ -17,16 +16,17 @@ module time_step
    use model, only: model_t
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
-   use runge_kutta, only: block_t, moment_t, stage_state, update_block
-   use search_margins, only: lists_hold, lists_reach, plan_t, planned, watch_margins, widen_margins
+   use runge_kutta, only: block_t, moment_t, stage_state, update_block, watch_changes
+   use search_margins, only: overreach, plan_t, planned, watch_margins, widen_margins
+   use step_outcome, only: add_up, look_ahead, outcome_t
    use step_state, only: step_t, take_extremes
-   use strips, only: group_slots
    use timers, only: timers_t, wall_seconds
    implicit none
    private
 
    public :: refresh, go_on, sorts_next, plan_next, advance
 
+   real(dp), parameter :: foresight = 1.25_dp  !! times the step for which lists are looked at before it; too short ones cost a step
    real(dp), parameter :: grown = 1.01_dp      !! times its limit: a step that the margins of the limits still cover
    integer, parameter, public :: phase_sort = 1, phase_gradients = 2, phase_diffusion = 3, phase_stages = 4
 
@@ -100,46 +100,59 @@ contains
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
-      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau, within_step=.false.)
+      call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
    end subroutine find_neighbours
 
-   !> Advances from `base` to `next` by one step, not beyond `last_time`.
-   subroutine advance(model, p, near, run, last_time, timers)
+   !> Advances from `base` to `next` by one step, not beyond `last_time`. With the step's sums goes what processes want each
+   !! other to know: a note that is true in some process is so in all then; where nothing is told they are false.
+   subroutine advance(model, p, near, run, last_time, timers, notes)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
       type(timers_t), intent(inout) :: timers
+      logical, intent(inout), optional :: notes(:)
       type(block_t), allocatable :: blocks(:)
-      real(dp) :: at_most
-      logical :: strayed
+      logical, allocatable :: told(:)
+      type(outcome_t) :: all
+      real(dp) :: at_most, expected, farthest
+      logical :: enough
 
+      expected = run%dt   ! as long as the last one
       at_most = last_time - run%time
+      if (.not. present(notes)) allocate (told(0))
+      if (present(notes)) then
+         told = notes
+         notes = .false.
+      end if
       do
          allocate (blocks(near%n_blocks))
          call timers%start(phase_gradients)
-         call first_sums(model, p, near, blocks)
+         call first_sums(model, p, near, foresight*expected/2, blocks)
          call timers%stop(phase_gradients)
-         run%dt = min(stable_step(model, blocks), at_most)
-         if (in_reach(near, run%dt)) then
-            call stages(model, p, near, run, blocks, timers, strayed)
-            if (strayed) then
-               near%slack = 2*near%stray
-            else
-               ! Terms that are not frozen: the coefficients of the later stages are known now.
-               at_most = min(at_most, stable_step(model, blocks))
-               if (.not. run%dt > grown*at_most) exit
-            end if
-            run%repeated = run%repeated + 1
+         call look_ahead(model, near, expected, blocks, run%dt, farthest)
+         run%dt = min(run%dt, at_most)
+         enough = in_reach(near, run%dt)
+         if (enough) then
+            if (farthest > 0) call widen_margins(near, expected, blocks%ahead, blocks%behind)
+            call reach_out(model, p, near, run, farthest > 0, timers)
+            call stages(model, p, near, run, blocks, timers, all, told)
+            ! Terms that are not frozen: the coefficients of the later stages are known now.
+            if (.not. any(all%overreach > 0)) at_most = min(at_most, all%limit)
+            if (.not. (any(all%overreach > 0) .or. run%dt > grown*at_most)) exit
+            ! A solution that has left its range by so much is no better the second time.
+            if (all%lost .and. maxval(all%overreach) > model%kernel%support) exit
          end if
-         ! The step is much longer than expected, accelerations led some particle too far, or alpha_i and delta_i grew: again,
-         ! with better margins.
+         ! Lists do not reach as far as some stage has led, the step is much longer than expected, or alpha_i and delta_i grew:
+         ! again, with better margins.
+         run%repeated = run%repeated + 1
+         call make_room(model, p, near, run, blocks, enough, all, timers)
          deallocate (blocks)
-         call sort_again(model, p, near, run, timers)
          if (run%scattered) return
       end do
-      call collect(model, near, run, last_time, blocks)
+      if (present(notes)) notes = told
+      call collect(model, near, run, last_time, all, blocks)
       if (p%features%dissipation) call add_dissipated(p, run%dt)
       run%step = run%step + 1
       run%time = run%time + run%dt
@@ -167,16 +180,54 @@ contains
       if (.not. near%age > 0) in_reach = dt - near%tau <= near%image_travel
    end function in_reach
 
-   ! The step of eq. 8 and the diffusive limits.
-   real(dp) function stable_step(model, blocks)
+   ! Lists for a longer step than expected, or of wider margins.
+   subroutine reach_out(model, p, near, run, wider, timers)
       type(model_t), intent(in) :: model
-      type(block_t), intent(in) :: blocks(:)
-      real(dp) :: largest(3)
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(in) :: run
+      logical, intent(in) :: wider
+      type(timers_t), intent(inout) :: timers
+      real(dp) :: travel
 
-      largest = max(0.0_dp, [maxval(blocks%largest_pi), maxval(blocks%largest_alpha), maxval(blocks%largest_delta)])
-      call largest_of_all(size(largest), largest)
-      stable_step = model%step_limit(largest(1), model%alpha + largest(2), largest(3))
-   end function stable_step
+      travel = near%travel
+      if (near%age + run%dt - near%tau > travel) travel = 1.1_dp*(run%dt - near%tau)
+      if (.not. (wider .or. travel > near%travel)) return
+      call timers%start(phase_sort)
+      call list_neighbours(near, p, model%kernel, travel)
+      call timers%stop(phase_sort)
+   end subroutine reach_out
+
+   ! Lists for the unchanged base state that reach farther: of the order that there is, where there are images for as much;
+   ! else the particles are sorted again, for the step that is known now.
+   subroutine make_room(model, p, near, run, blocks, enough, all, timers)
+      type(model_t), intent(in) :: model
+      type(particles_t), intent(inout) :: p
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      type(block_t), intent(in) :: blocks(:)
+      logical, intent(in) :: enough          !! the stages were tried,
+      type(outcome_t), intent(in) :: all     !! with this
+      type(timers_t), intent(inout) :: timers
+      real(dp) :: farthest
+      integer :: stage
+
+      farthest = 0
+      stage = 0
+      if (enough) then
+         stage = findloc(all%overreach > 0, .true., 1)   ! those behind it are of lists that do not reach
+         if (stage > 0) farthest = all%overreach(stage)
+      end if
+      if (farthest > near%image_slack) near%slack = 2*farthest
+      if (farthest > 0 .and. .not. farthest > near%image_slack) then
+         call timers%start(phase_sort)
+         call widen_margins(near, model%integrator%ahead(stage)*run%dt, blocks%change(stage), blocks%change(1))
+         call list_neighbours(near, p, model%kernel, near%travel)
+         call timers%stop(phase_sort)
+      else
+         call sort_again(model, p, near, run, timers)
+      end if
+   end subroutine make_room
 
    ! Sorts the unchanged base state again, for the step that is known now.
    subroutine sort_again(model, p, near, run, timers)
@@ -194,42 +245,41 @@ contains
 
    ! L, grad rho and the first stage's rates, which `next` keeps until they are used; of the frozen terms what needs no
    ! gradient and no coefficient of a neighbour.
-   subroutine first_sums(model, p, near, blocks)
+   subroutine first_sums(model, p, near, ahead, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
+      real(dp), intent(in) :: ahead   !! time for which the change of velocities is looked at
       type(block_t), intent(inout) :: blocks(:)
       real(dp) :: started
-      integer :: b
+      integer :: b, i0, n
 
       started = wall_seconds()
-      !$omp parallel do default(none) shared(model, p, near, blocks) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, ahead, blocks) private(i0, n) schedule(dynamic)
       do b = 1, near%n_blocks
          call begin_frozen_terms(model, p, near, b, blocks(b))
+         i0 = near%blocks(b)%before
+         n = nl*near%blocks(b)%n_clusters
+         call watch_changes(model, p, i0, n, ahead, blocks(b))
       end do
       !$omp end parallel do
       near%division%busy = near%division%busy + wall_seconds() - started
    end subroutine first_sums
 
-   ! The stages; `strayed` if there are no images for where some particle went, and the result is void.
-   subroutine stages(model, p, near, run, blocks, timers, strayed)
+   ! The stages, and what they have come to.
+   subroutine stages(model, p, near, run, blocks, timers, all, notes)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       type(block_t), intent(inout) :: blocks(:)
       type(timers_t), intent(inout) :: timers
-      logical, intent(out) :: strayed
+      type(outcome_t), intent(out) :: all
+      logical, intent(inout) :: notes(:)
       real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
       type(moment_t) :: moment
       integer :: stage
 
-      if (near%age + run%dt - near%tau > near%travel) then
-         call timers%start(phase_sort)
-         call list_neighbours(near, p, model%kernel, 1.1_dp*(run%dt - near%tau), within_step=.false.)
-         call timers%stop(phase_sort)
-      end if
-      strayed = .false.
       do stage = 1, model%integrator%stages
          moment = moment_t(stage, run%dt, model%box%after(run%time + model%integrator%time_of(stage)*run%dt))
          if (stage == 1) then
@@ -248,15 +298,13 @@ contains
             call timers%stop(phase_stages)
          end if
          changes(:, stage) = blocks%change(stage)
-         if (stage < model%integrator%stages) call follow(model, p, near, run, stage, changes, timers, strayed)
+         if (stage < model%integrator%stages) &
+            all%overreach(stage) = overreach(near, model%integrator%ahead(stage)*run%dt, changes(:, stage))
       end do
       near%jumped = any(blocks%wrapped)
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
-      ! A solution that has left its range by so much is no better the second time.
-      if (near%stray > model%kernel%support) then
-         if (any_process(any(blocks%lost_slot > 0))) strayed = .false.
-      end if
+      call add_up(model, near, run%dt, blocks, all, notes)
    end subroutine stages
 
    ! The power of walls that move, as a stage's part of the step's.
@@ -271,31 +319,6 @@ contains
       end do
       !$omp end parallel do
    end subroutine scale_wall_power
-
-   ! Makes the lists anew if they do not reach as far as the state that a stage leads to.
-   subroutine follow(model, p, near, run, stage, changes, timers, strayed)
-      type(model_t), intent(in) :: model
-      type(particles_t), intent(inout) :: p
-      type(neighbours_t), intent(inout) :: near
-      type(step_t), intent(inout) :: run
-      integer, intent(in) :: stage
-      real(dp), intent(in) :: changes(:, :)   !! (blocks, stages) until this one
-      type(timers_t), intent(inout) :: timers
-      logical, intent(inout) :: strayed
-      real(dp) :: time
-      logical :: enough
-
-      time = model%integrator%ahead(stage)*run%dt
-      if (.not. any_process(.not. lists_reach(near, time, changes(:, stage)))) return
-      call timers%start(phase_sort)
-      call widen_margins(near, time, changes(:, stage), changes(:, 1), enough)
-      strayed = strayed .or. .not. enough
-      if (enough) then
-         call list_neighbours(near, p, model%kernel, near%travel, within_step=.true.)
-         run%relisted = run%relisted + 1
-      end if
-      call timers%stop(phase_sort)
-   end subroutine follow
 
    ! Completes the frozen terms and goes from `base` to the second stage's state.
    subroutine first_stage(model, p, near, moment, blocks)
@@ -322,6 +345,7 @@ contains
             b = near%order(k)
             i0 = near%blocks(b)%before
             n = nl*near%blocks(b)%n_clusters
+            call let_messages_go_on(near%images%halo, k)
             call complete_frozen_terms(model, p, near, b, blocks(b))
             if (p%features%dissipation) call sum_dissipation(model, near%blocks(b), p, i0)
             call take_kept(p%next, i0, n, rates)
@@ -371,6 +395,7 @@ contains
             b = near%order(k)
             i0 = near%blocks(b)%before
             n = nl*near%blocks(b)%n_clusters
+            call let_messages_go_on(near%images%halo, k)
             call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
             call flow_rates(model, p%stage(now), i0, n, sums, rates)
             call update_block(model, p, i0, n, moment, rates, blocks(b))
@@ -398,7 +423,7 @@ contains
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
-      call first_sums(model, p, near, of_stage)
+      call first_sums(model, p, near, 0.0_dp, of_stage)
       call begin_fill(near%images, model%box, p)
       call finish_fill(near%images, model%box, p)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
@@ -422,66 +447,31 @@ contains
       !$omp end parallel do
    end subroutine whole_stage
 
-   ! Sums over each strip, and over these exact: neither threads nor the order of strips matter.
-   subroutine collect(model, near, run, last_time, blocks)
+   ! Takes over what a step has come to.
+   subroutine collect(model, near, run, last_time, all, blocks)
       type(model_t), intent(in) :: model
       type(neighbours_t), intent(inout) :: near
       type(step_t), intent(inout) :: run
       real(dp), intent(in) :: last_time
+      type(outcome_t), intent(in) :: all
       type(block_t), intent(in) :: blocks(:)
-      real(dp), allocatable :: sums(:, :)   ! of each strip
-      real(dp) :: totals(7), largest(7), moving_walls
-      integer :: k
+      real(dp) :: moving_walls
 
-      allocate (sums(7, size(near%first_block) - 1))
-      !$omp parallel do default(none) shared(near, blocks, sums) schedule(dynamic, max(1, size(near%first_block)/256))
-      do k = 1, size(sums, 2)
-         sums(:5, k) = strip_powers(near, k, blocks)
-         associate (here => blocks(near%first_block(k):near%first_block(k + 1) - 1))
-            sums(6:, k) = [sum(here%crossings), sum(here%singular)]
-         end associate
-      end do
-      !$omp end parallel do
-      totals = exact_totals(sums)
-      largest = max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), maxval(blocks%largest_pi), &
-                             maxval(near%margins(:near%n_blocks)%next_stray), one_if(any(blocks%lost_slot > 0)), &
-                             one_if(.not. lists_hold(near, run%dt))])
-      call largest_of_all(size(largest), largest)
-      if (run%dt < model%advective_limit(largest(4)) .and. run%time + run%dt < last_time) run%limited = run%limited + 1
-      moving_walls = run%dt*totals(5)
-      run%work_alpha = run%work_alpha + totals(1) - moving_walls
-      run%work_delta = run%work_delta + totals(2)
-      run%work_walls = run%work_walls + totals(3) + moving_walls
-      run%work_force = run%work_force + totals(4)
-      run%crossings = run%crossings + nint(totals(6), i8)
-      run%singular = run%singular + nint(totals(7), i8)
-      call take_extremes(model, largest(1), largest(2), largest(3), run)
-      near%next_stray = largest(5)
+      if (run%dt < all%advective_limit .and. run%time + run%dt < last_time) run%limited = run%limited + 1
+      moving_walls = run%dt*all%moving_walls
+      run%work_alpha = run%work_alpha + all%work(1) - moving_walls
+      run%work_delta = run%work_delta + all%work(2)
+      run%work_walls = run%work_walls + all%work(3) + moving_walls
+      run%work_force = run%work_force + all%work(4)
+      run%crossings = run%crossings + all%crossings
+      run%singular = run%singular + all%singular
+      call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)
       run%lost_slot = max(0, maxval(blocks%lost_slot))
-      run%lost = largest(6) > 0
-      near%lasts = .not. largest(7) > 0
+      run%lost = all%lost
+      near%lasts = all%lasts
+      near%mean_acceleration = all%mean_acceleration
+      near%largest_acceleration = all%largest_acceleration
+      near%extent = all%extent
    end subroutine collect
-
-   pure real(dp) function one_if(statement)
-      logical, intent(in) :: statement
-
-      one_if = merge(1.0_dp, 0.0_dp, statement)
-   end function one_if
-
-   ! The works and the wall power of a strip, group by group.
-   pure function strip_powers(near, strip, blocks) result(powers)
-      type(neighbours_t), intent(in) :: near
-      integer, intent(in) :: strip   !! counted from the first own one
-      type(block_t), intent(in) :: blocks(:)
-      real(dp) :: powers(5)
-      integer :: b, g
-
-      powers = 0
-      do b = near%first_block(strip), near%first_block(strip + 1) - 1
-         do g = 1, nl*near%blocks(b)%n_clusters/group_slots
-            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
-         end do
-      end do
-   end function strip_powers
 
 end module time_step

@@ -173,7 +173,7 @@ contains
       if (present(slack)) near%slack = slack
       call sort_particles(near, p, model%kernel, model%box, model%dx, step_ahead, scattered)
       if (scattered) error stop 'the test''s particles are too far from each other'
-      call list_neighbours(near, p, model%kernel, 2*near%tau, within_step=.false.)
+      call list_neighbours(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
 
    !> The slots that a cluster is to visit; clusters are counted through all blocks.

@@ -68,7 +68,7 @@ contains
             call problem%raise(exit_files, 'some particles are too far from the others to be sorted')
             return
          end if
-         call list_neighbours(near, fluid%p, model%kernel, 0.0_dp, within_step=.false.)
+         call list_neighbours(near, fluid%p, model%kernel, 0.0_dp)
       end associate
    end subroutine sort_fluid
 

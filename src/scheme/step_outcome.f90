@@ -1,0 +1,148 @@
+!> What the processes learn of each other in a step, in two reductions: what the first sums limit, and what all stages have come to.
+module step_outcome
+   use communication, only: combine, largest_of_all
+   use exact_sum, only: exact_sum_t, exact_sums, integers_of, take_integers
+   use integrators, only: most_stages
+   use kinds, only: dp, i8
+   use lanes, only: nl
+   use model, only: model_t
+   use neighbours, only: neighbours_t
+   use runge_kutta, only: block_t
+   use search_margins, only: lists_hold, overreach
+   use strips, only: extent_t, group_slots
+   implicit none
+   private
+
+   public :: outcome_t, look_ahead, add_up
+
+   !> What the stages of a step have come to, in all processes.
+   type :: outcome_t
+      real(dp) :: work(4) = 0                  !! [J/m] as in block_t
+      real(dp) :: moving_walls = 0             !! [W/m] of no-slip walls that move
+      integer(i8) :: crossings = 0, singular = 0
+      real(dp) :: speed_2 = 0, pressure = 0, largest_s = 0   !! as in block_t
+      real(dp) :: limit = 0                    !! [s] step that would have been stable in each stage
+      real(dp) :: advective_limit = 0          !! [s] by eq. 8 alone
+      real(dp) :: overreach(most_stages) = 0   !! of the lists, in the state that a stage leads to; the result is void if not 0
+      real(dp) :: mean_acceleration = 0, largest_acceleration = 0   !! of blocks
+      type(extent_t) :: extent                 !! in x, and of velocities
+      logical :: lost = .false.                !! a particle left its range
+      logical :: lasts = .false.               !! the lists serve for the next step
+   end type outcome_t
+
+contains
+
+   !> What the first sums tell all, in one reduction: the step of eq. 8 and the diffusive limits, and whether lists will be too
+   !! short.
+   subroutine look_ahead(model, near, expected, blocks, limit, farthest)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      real(dp), intent(in) :: expected    !! length of the step
+      type(block_t), intent(in) :: blocks(:)
+      real(dp), intent(out) :: limit      !! its largest length
+      real(dp), intent(out) :: farthest   !! overreach of the lists after the expected step
+      real(dp) :: largest(4)
+
+      largest = [for_step(blocks), overreach(near, expected, blocks%ahead)]
+      call largest_of_all(size(largest), largest)
+      limit = model%step_limit(largest(1), model%alpha + largest(2), largest(3))
+      farthest = largest(4)
+   end subroutine look_ahead
+
+   !> What the blocks of all processes have come to, in one reduction. Sums are taken over each strip, and over these exactly:
+   !! neither threads nor the order of strips matter.
+   subroutine add_up(model, near, dt, blocks, all, notes)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      real(dp), intent(in) :: dt
+      type(block_t), intent(in) :: blocks(:)
+      type(outcome_t), intent(inout) :: all   !! with the own overreach
+      logical, intent(inout) :: notes(:)
+      integer, parameter :: n_sums = 9
+      real(dp), allocatable :: table(:, :)    ! sums of each strip
+      real(dp), allocatable :: largest(:)
+      type(exact_sum_t) :: sums(n_sums)
+      integer(i8), allocatable :: numbers(:)
+      real(dp) :: totals(n_sums)
+      integer :: k
+
+      allocate (table(n_sums, size(near%first_block) - 1))
+      !$omp parallel do default(none) shared(near, blocks, table) schedule(dynamic, max(1, size(near%first_block)/256))
+      do k = 1, size(table, 2)
+         table(:5, k) = strip_powers(near, k, blocks)
+         associate (first => near%first_block(k), last => near%first_block(k + 1) - 1)
+            table(6:, k) = [real(sum(blocks(first:last)%crossings), dp), real(sum(blocks(first:last)%singular), dp), &
+                            sum(near%margins(first:last)%next_acceleration), real(last - first + 1, dp)]
+         end associate
+      end do
+      !$omp end parallel do
+      sums = exact_sums(table)
+      numbers = integers_of(sums)
+      associate (extent => blocks%extent)
+         largest = [max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), for_step(blocks), &
+                                 maxval(near%margins(:near%n_blocks)%next_acceleration), all%overreach, &
+                                 one_if(any(blocks%lost_slot > 0)), one_if(.not. lists_hold(near, dt)), one_if(notes)]), &
+                    maxval(-extent%lower(1)), maxval(extent%upper(1)), maxval(-extent%slowest(1)), maxval(extent%fastest(1)), &
+                    maxval(-extent%slowest(2)), maxval(extent%fastest(2))]
+      end associate
+      call combine(numbers, largest)
+      call take_integers(numbers, sums)
+      do k = 1, n_sums
+         totals(k) = sums(k)%value()
+      end do
+      all%work = totals(:4)
+      all%moving_walls = totals(5)
+      all%crossings = nint(totals(6), i8)
+      all%singular = nint(totals(7), i8)
+      if (totals(9) > 0) all%mean_acceleration = totals(8)/totals(9)
+      all%speed_2 = largest(1)
+      all%pressure = largest(2)
+      all%largest_s = largest(3)
+      all%limit = model%step_limit(largest(4), model%alpha + largest(5), largest(6))
+      all%advective_limit = model%advective_limit(largest(4))
+      all%largest_acceleration = largest(7)
+      all%overreach = largest(8:7 + most_stages)
+      associate (others => largest(8 + most_stages:))
+         all%lost = others(1) > 0
+         all%lasts = .not. others(2) > 0
+         notes = others(3:2 + size(notes)) > 0
+         associate (span => others(3 + size(notes):))
+            all%extent%lower(1) = -span(1)
+            all%extent%upper(1) = span(2)
+            all%extent%slowest = -span([3, 5])
+            all%extent%fastest = span([4, 6])
+         end associate
+      end associate
+   end subroutine add_up
+
+   ! What limits a step, of this process.
+   pure function for_step(blocks) result(largest)
+      type(block_t), intent(in) :: blocks(:)
+      real(dp) :: largest(3)
+
+      largest = max(0.0_dp, [maxval(blocks%largest_pi), maxval(blocks%largest_alpha), maxval(blocks%largest_delta)])
+   end function for_step
+
+   elemental real(dp) function one_if(statement)
+      logical, intent(in) :: statement
+
+      one_if = merge(1.0_dp, 0.0_dp, statement)
+   end function one_if
+
+   ! The works and the wall power of a strip, group by group.
+   pure function strip_powers(near, strip, blocks) result(powers)
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: strip   !! counted from the first own one
+      type(block_t), intent(in) :: blocks(:)
+      real(dp) :: powers(5)
+      integer :: b, g
+
+      powers = 0
+      do b = near%first_block(strip), near%first_block(strip + 1) - 1
+         do g = 1, nl*near%blocks(b)%n_clusters/group_slots
+            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
+         end do
+      end do
+   end function strip_powers
+
+end module step_outcome
