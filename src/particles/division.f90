@@ -25,31 +25,86 @@ module division
 
 contains
 
-   !> Cuts where each process gets about as large a load.
+   !> Cuts so that the largest load of a process is as small as whole places allow, and others are as even as they can be then.
    subroutine cut(self, first_place, loads)
       type(division_t), intent(inout) :: self
       integer(i8), intent(in) :: first_place   !! of all
       integer(i8), intent(in) :: loads(:)      !! (places) of each
-      integer(i8) :: before, total
+      integer(i8) :: before(0:size(loads))     ! load of so many places
+      integer(i8) :: most
+      integer, allocatable :: least(:), cuts(:)   ! places before each process
       integer :: k, n, process
 
       n = n_processes()
       if (.not. allocated(self%first)) allocate (self%first(0:n))
-      self%first = all_places + 1
-      self%first(0) = -all_places
-      total = sum(loads)
-      before = 0
-      process = 1
+      before(0) = 0
       do k = 1, size(loads)
-         ! A place goes where its middle is.
-         do while (process < n)
-            if (real(2*before + loads(k), dp)*n < 2.0_dp*process*total) exit
-            self%first(process) = first_place + k - 1
-            process = process + 1
-         end do
-         before = before + loads(k)
+         before(k) = before(k - 1) + loads(k)
       end do
+      most = least_maximum(n, before, maxval(loads))
+      ! With fewer places before it, a process and those behind it would have to bear more than that.
+      allocate (least(0:n), cuts(0:n))
+      least(n) = size(loads)
+      do process = n - 1, 0, -1
+         k = least(process + 1)
+         do while (k > 0)
+            if (before(least(process + 1)) - before(k - 1) > most) exit
+            k = k - 1
+         end do
+         least(process) = k
+      end do
+      cuts(0) = 0
+      k = 0
+      do process = 1, n
+         ! A place goes where its middle is.
+         do while (k < size(loads))
+            if (real(before(k) + before(k + 1), dp)*n >= 2.0_dp*process*before(size(loads))) exit
+            k = k + 1
+         end do
+         cuts(process) = max(k, least(process))
+         do while (before(cuts(process)) - before(cuts(process - 1)) > most)
+            cuts(process) = cuts(process) - 1
+         end do
+      end do
+      self%first = first_place + cuts
+      self%first(0) = -all_places
+      where (cuts == size(loads)) self%first = all_places + 1
    end subroutine cut
+
+   ! The smallest load that no process has to exceed.
+   pure integer(i8) function least_maximum(n, before, largest) result(most)
+      integer, intent(in) :: n
+      integer(i8), intent(in) :: before(0:)   !! load of so many places
+      integer(i8), intent(in) :: largest      !! of a place
+      integer(i8) :: low, middle
+
+      low = max(largest, (before(ubound(before, 1)) + n - 1)/n)
+      most = low + largest
+      do while (low < most)
+         middle = (low + most)/2
+         if (processes_for(before, middle) > n) then
+            low = middle + 1
+         else
+            most = middle
+         end if
+      end do
+   end function least_maximum
+
+   ! How many are needed where none bears more.
+   pure integer function processes_for(before, most) result(n)
+      integer(i8), intent(in) :: before(0:)
+      integer(i8), intent(in) :: most   !! at least that of each place
+      integer(i8) :: done
+      integer :: k
+
+      n = 1
+      done = 0
+      do k = 1, ubound(before, 1)
+         if (before(k) - done <= most) cycle
+         n = n + 1
+         done = before(k - 1)
+      end do
+   end function processes_for
 
    !> From and to which place this process computes.
    function own_places(self) result(places)

@@ -10,9 +10,11 @@ foreach(target IN ITEMS funit funit_translate)
 endforeach()
 target_compile_options(funit PRIVATE -Wno-unused-dummy-argument)   # of funit_check_ranks, which is for the compiler alone
 
-# add_pfunit_ctest(name TEST_SOURCES a.pf ... [OTHER_SOURCES x.f90 ...] [LINK_LIBRARIES library ...])
+# add_pfunit_ctest(name TEST_SOURCES a.pf ... [OTHER_SOURCES x.f90 ...] [LINK_LIBRARIES library ...]
+#                  [EXTRA_USE module EXTRA_INITIALIZE procedure EXTRA_FINALIZE procedure])
 #
-# One executable and one ctest of this name for the suites in all TEST_SOURCES.
+# One executable and one ctest of this name for the suites in all TEST_SOURCES; the module's procedures are called before the first
+# test and after the last.
 function(add_pfunit_ctest name)
    funit_add_executable(${name} ${ARGN})
    add_test(NAME ${name} COMMAND ${name})
@@ -20,7 +22,7 @@ endfunction()
 
 # The executable alone; same arguments.
 function(funit_add_executable name)
-   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "TEST_SOURCES;OTHER_SOURCES;LINK_LIBRARIES")
+   cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXTRA_USE;EXTRA_INITIALIZE;EXTRA_FINALIZE" "TEST_SOURCES;OTHER_SOURCES;LINK_LIBRARIES")
    if(arg_UNPARSED_ARGUMENTS OR NOT arg_TEST_SOURCES)
       message(FATAL_ERROR "add_pfunit_ctest(${name}): no TEST_SOURCES, or arguments the stand-in for pFUnit does not know: "
          "${arg_UNPARSED_ARGUMENTS}")
@@ -41,8 +43,18 @@ function(funit_add_executable name)
       string(APPEND declarations "   external :: ${suite}_suite\n")
       string(APPEND calls "   call ${suite}_suite()\n")
    endforeach()
+   set(uses "   use funit, only: funit_finish\n")
+   if(arg_EXTRA_USE)
+      string(APPEND uses "   use ${arg_EXTRA_USE}\n")
+   endif()
+   if(arg_EXTRA_INITIALIZE)
+      string(PREPEND calls "   call ${arg_EXTRA_INITIALIZE}()\n")
+   endif()
+   if(arg_EXTRA_FINALIZE)
+      string(APPEND calls "   call ${arg_EXTRA_FINALIZE}()\n")
+   endif()
    file(GENERATE OUTPUT ${directory}/main.f90 CONTENT
-      "program funit_main\n   use funit, only: funit_finish\n   implicit none\n${declarations}${calls}   call funit_finish()\nend program\n")
+      "program funit_main\n${uses}   implicit none\n${declarations}${calls}   call funit_finish()\nend program\n")
 
    add_executable(${name} ${generated} ${arg_OTHER_SOURCES})
    set_target_properties(${name} PROPERTIES Fortran_MODULE_DIRECTORY ${directory})   # its own, as in pFUnit

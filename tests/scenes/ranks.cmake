@@ -21,9 +21,12 @@ foreach(case IN ITEMS past_the_impact every_stage auto goes_on_with_others signa
    add_ranks_test(${case})
 endforeach()
 
-# The suite of module `communication`, which runs with one process among the fast tests.
-foreach(n IN ITEMS 2 3)
-   add_test(NAME ranks_talk_${n} COMMAND ${launcher} ${n} $<TARGET_FILE:test_communication>)
-   set_tests_properties(ranks_talk_${n} PROPERTIES PROCESSORS 2 TIMEOUT 60
-      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;GOMP_SPINCOUNT=1000")
+# Suites of what ranks do together, which are among the fast tests with one process. Others know nothing of ranks, or look at slots.
+foreach(suite IN ITEMS communication diffusion dissipation dynamic_steps energy features forces no_slip order periodic probes
+        search_margins time_step vortex_start)
+   foreach(n IN ITEMS 2 3)
+      add_test(NAME ranks_${n}_test_${suite} COMMAND ${launcher} ${n} $<TARGET_FILE:test_${suite}>)
+      set_tests_properties(ranks_${n}_test_${suite} PROPERTIES LABELS fast PROCESSORS 2 TIMEOUT 120
+         ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;GOMP_SPINCOUNT=1000;OMP_NUM_THREADS=1")
+   endforeach()
 endforeach()

@@ -2,18 +2,19 @@
 module evaluation
    use box, only: box_t
    use candidates, only: block_slots
+   use communication, only: sums_of_all
    use first_sums, only: first_sums_t, pass_constant, sum_first
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
    use frozen_terms, only: begin_frozen_terms, complete_frozen_terms
    use image_laws, only: as_gradient
    use images, only: fill_ghosts
-   use kinds, only: dp
+   use kinds, only: dp, i8
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t, state_t
-   use patches, only: points_t, points_of
+   use patches, only: make_common, points_of, points_t
    use runge_kutta, only: block_t
    implicit none
    private
@@ -45,6 +46,7 @@ contains
       type(box_t) :: box
       type(block_t), allocatable :: blocks(:)
       type(state_t) :: next
+      integer(i8) :: singular(1)
       integer :: b, l, i0, n
 
       found%at = points_of(p)
@@ -60,7 +62,9 @@ contains
          call begin_frozen_terms(model, p, near, b, blocks(b))
          call evaluate_block(model, p, near, b, found)
       end do
-      found%singular = sum(blocks%singular)
+      singular = sum(blocks%singular)
+      call sums_of_all(1, singular)
+      found%singular = int(singular(1))
       box = model%box
       if (present(gradient_box)) box = gradient_box
       call fill_ghosts(near%images, as_gradient(box, 1), p%grad_x)
@@ -74,7 +78,40 @@ contains
          end do
       end do
       p%next = next
+      call tell_each_other(p, found)
    end subroutine evaluate
+
+   ! What each process has found of its particles.
+   subroutine tell_each_other(p, found)
+      type(particles_t), intent(in) :: p
+      type(evaluation_t), intent(inout) :: found
+      logical :: known(p%n)
+      integer :: i, k
+
+      known = .false.
+      do i = 1, p%n_own
+         if (p%id(i) > 0) known(p%id(i)) = .true.
+      end do
+      call make_common(known, found%divergence)
+      call make_common(known, found%first_divergence)
+      call make_common(known, found%density_0)
+      call make_common(known, found%largest_pi)
+      call make_common(known, found%rate)
+      call make_common(known, found%diffusion)
+      do k = 1, 2
+         call make_common(known, found%force(k, :))
+         call make_common(known, found%first_force(k, :))
+         call make_common(known, found%density(k, :))
+         call make_common(known, found%kernel(k, :))
+         call make_common(known, found%viscous(k, :))
+         call make_common(known, found%acceleration(k, :))
+         call make_common(known, found%viscosity(k, :))
+         call make_common(known, found%gradient(k, :))
+      end do
+      do k = 1, 3
+         call make_common(known, found%matrix(k, :))
+      end do
+   end subroutine tell_each_other
 
    ! All that needs no gradient of a neighbour; the frozen terms of the block have begun.
    subroutine evaluate_block(model, p, near, b, found)

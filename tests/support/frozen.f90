@@ -5,7 +5,7 @@ module frozen
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
-   use patches, only: points_of, points_t, scatter
+   use patches, only: deal, points_of, points_t, scatter
    use step_state, only: step_t
    use time_step, only: advance, refresh
    use timers, only: timers_t
@@ -42,6 +42,7 @@ contains
       type(timers_t) :: timers
 
       p = start
+      call deal(p)
       timers = new_timers()
       call refresh(model, p, near, found%run, timers)
       call advance(model, p, near, found%run, moment, timers)

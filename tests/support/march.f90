@@ -5,7 +5,7 @@ module march
    use model, only: model_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
-   use patches, only: points_of, points_t, scatter
+   use patches, only: deal, points_of, points_t, scatter
    use step_state, only: step_t
    use time_step, only: advance, refresh
    use timers, only: timers_t
@@ -39,13 +39,14 @@ contains
       integer :: k
 
       p = start
+      call deal(p)
       timers = new_timers()
       call refresh(model, p, near, finish%run, timers)
       call measure_energies(model, p, finish%first)
       do k = 1, n
          do while (finish%run%time < k*interval)
             call advance(model, p, near, finish%run, k*interval, timers)
-            if (finish%run%lost_slot > 0 .or. finish%run%scattered) error stop 'the test''s particles were lost'
+            if (finish%run%lost .or. finish%run%scattered) error stop 'the test''s particles were lost'
             call refresh(model, p, near, finish%run, timers)
          end do
       end do

@@ -1,5 +1,6 @@
 !> Small seeded sets of particles that the tests of neighbours, sums and steps share.
 module patches
+   use communication, only: largest_of_all, n_processes, sums_of_all, this_process
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use integrators, only: new_integrator
    use kernel, only: new_kernel
@@ -14,7 +15,7 @@ module patches
    private
 
    public :: random_t, points_t, empty_points, open_model, tank_model, box_model, channel_model, make_dynamic
-   public :: fill_patch, put_particles
+   public :: fill_patch, put_particles, deal, make_common
    public :: set_linear_density, find_neighbours, candidates_of, points_of, with_images, without_slip, scatter
 
    real(dp), parameter, public :: spacing = 0.05_dp                    !! dx of the models below
@@ -148,6 +149,21 @@ contains
       p%next%volume(1:n) = points%w
    end subroutine put_particles
 
+   !> Where there are several processes, all of which have all particles, each keeps its share of them for the sort to come.
+   subroutine deal(p)
+      type(particles_t), intent(inout) :: p
+      integer(i8) :: held(1)
+      integer :: i
+
+      if (n_processes() == 1) return
+      held = count(p%id(:p%n_own) > 0)
+      call sums_of_all(1, held)
+      if (held(1) == p%n) return   ! they were dealt before
+      do i = 1, p%n_own
+         if (mod(i, n_processes()) /= this_process()) p%id(i) = 0
+      end do
+   end subroutine deal
+
    !> rho - rho0 = constant + slope.r, in `next`; volumes stay and masses follow.
    subroutine set_linear_density(model, p, constant, slope)
       type(model_t), intent(in) :: model
@@ -171,6 +187,7 @@ contains
 
       near%slack = 0.02_dp*model%dx
       if (present(slack)) near%slack = slack
+      call deal(p)
       call sort_particles(near, p, model%kernel, model%box, model%dx, step_ahead, scattered)
       if (scattered) error stop 'the test''s particles are too far from each other'
       call list_neighbours(near, p, model%kernel, 2*near%tau)
@@ -203,17 +220,34 @@ contains
       call scatter(p, p%m, points%m)
    end function points_of
 
-   !> Brings an array over slots into the order of the particles' numbers.
+   !> Brings an array over slots, of all processes, into the order of the particles' numbers.
    subroutine scatter(p, by_slot, by_id)
       type(particles_t), intent(in) :: p
       real(dp), intent(in) :: by_slot(:)
       real(dp), intent(inout) :: by_id(:)   !! (n)
+      logical :: known(size(by_id))
       integer :: i
 
+      known = .false.
       do i = 1, p%n_own
-         if (p%id(i) > 0) by_id(p%id(i)) = by_slot(i)
+         if (p%id(i) == 0) cycle
+         by_id(p%id(i)) = by_slot(i)
+         known(p%id(i)) = .true.
       end do
+      call make_common(known, by_id)
    end subroutine scatter
+
+   !> All processes get what is known to one of them.
+   subroutine make_common(known, values)
+      logical, intent(in) :: known(:)          !! (n) here
+      real(dp), intent(inout) :: values(:)     !! (n)
+      real(dp) :: told(size(values))
+
+      if (n_processes() == 1) return
+      told = merge(values, -huge(1.0_dp), known)
+      call largest_of_all(size(told), told)
+      values = told
+   end subroutine make_common
 
    !> The particles and all images that they could have, however far away: written from the definition.
    type(points_t) function with_images(points, box) result(both)

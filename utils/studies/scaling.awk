@@ -1,7 +1,7 @@
 # How even columns can be divided among ranks, as the cuts of module `division` do, and what a step then takes.
 #
 # usage: awk -f scaling.awk -v size=100 -v target=1600 -v ranks=96 -v threads=1 -v tau=520 -v copy=38 -v serial=0.004 -v bytes=180
-#            -v messages=5.3 -v reductions=12 -v latency=2 -v bandwidth=1 -v margin=4 POSITIONS...
+#            -v messages=5.3 -v reductions=4 -v latency=2 -v bandwidth=1 -v margin=3 POSITIONS...
 #
 # POSITIONS: tables of dynsph-snapshot-to-text, d/dx = size. Their particles are taken for those of a flow at d/dx = target: as many in a
 # column, 2 dx wide there, as there were in that part of one here. tau, copy: ns of one thread for a step of a particle, of a copy;
@@ -40,16 +40,29 @@ function finish(    factor, n, c) {
    total += all; columns += n; tables++
    split("", count); last = 0
 }
-function divide(n,    c, process, before, mine, largest, held, k) {
-   process = 1; before = 0; first[0] = 0
-   for (c = 0; c < n; c++) {
-      while (process < ranks && (2*before + load[c])*ranks >= 2*process*all) first[process++] = c
-      before += load[c]
+# As module `division`: the largest load as small as whole columns allow.
+function divide(n,    c, process, before, mine, largest, held, k, low, most, middle, heaviest, least) {
+   before[0] = 0; heaviest = 0
+   for (c = 0; c < n; c++) { before[c + 1] = before[c] + load[c]; if (load[c] > heaviest) heaviest = load[c] }
+   low = all/ranks; if (heaviest > low) low = heaviest
+   most = low + heaviest
+   while (most - low > 1e-6*all/ranks) {
+      middle = (low + most)/2
+      if (needed(n, before, middle) > ranks) low = middle; else most = middle
    }
-   while (process <= ranks) first[process++] = n
+   least[ranks] = n
+   for (process = ranks - 1; process >= 0; process--) {
+      for (k = least[process + 1]; k > 0 && before[least[process + 1]] - before[k - 1] <= most; k--);
+      least[process] = k
+   }
+   first[0] = 0; k = 0
+   for (process = 1; process <= ranks; process++) {
+      while (k < n && (before[k] + before[k + 1])*ranks < 2*process*all) k++
+      first[process] = k > least[process] ? k : least[process]
+      while (before[first[process]] - before[first[process - 1]] > most) first[process]--
+   }
    for (k = 0; k < ranks; k++) {
-      mine = 0
-      for (c = first[k]; c < first[k + 1]; c++) mine += load[c]
+      mine = before[first[k + 1]] - before[first[k]]
       for (c = first[k] - margin; c < first[k]; c++) if (c >= 0) held += load[c]
       for (c = first[k + 1]; c < first[k + 1] + margin; c++) if (c < n) held += load[c]
       if (mine > largest) largest = mine
@@ -57,4 +70,9 @@ function divide(n,    c, process, before, mine, largest, held, k) {
    sum_load += largest*ranks/all
    if (largest*ranks/all > worst) worst = largest*ranks/all
    sum_copies += held/ranks
+}
+function needed(n, before, most,    k, m, done) {
+   m = 1; done = 0
+   for (k = 1; k <= n; k++) if (before[k] - done > most) { m++; done = before[k - 1] }
+   return m
 }
