@@ -22,8 +22,8 @@ module body_particles
 
    !> Places of particles and the areas that they stand for.
    type :: sites_t
-      real(dp), allocatable :: x(:), y(:)   !! (particles)
-      real(dp), allocatable :: area(:)      !! (particles)
+      real(dp), allocatable :: x(:), y(:)   !! (first:last) of the body's particles
+      real(dp), allocatable :: area(:)      !! (first:last)
    end type sites_t
 
 contains
@@ -50,17 +50,23 @@ contains
       end if
    end function count_sites
 
-   !> Places the particles of a body.
-   pure subroutine place_sites(body, dx, sites)
+   !> Places the particles of a body, or some of them.
+   pure subroutine place_sites(body, dx, sites, first, last)
       type(body_settings), intent(in) :: body
       real(dp), intent(in) :: dx
       type(sites_t), intent(out) :: sites
-      integer :: n
+      integer, intent(in), optional :: first, last   !! of them, from 1; all if left out
+      integer :: n, from, to
 
       n = count_sites(body, dx)
-      allocate (sites%x(n), sites%y(n), sites%area(n))
+      from = 1
+      to = n
+      if (present(first)) from = first
+      if (present(last)) to = last
+      allocate (sites%x(from:to), sites%y(from:to), sites%area(from:to))
       if (body%shape == 'disc' .and. body%packing == 'lattice') then
          call place_on_cut_lattice(body, rings(body, dx), sites)
+         sites%area = pi*body%radius**2/n
       else if (body%shape == 'disc') then
          call place_on_rings(body, rings(body, dx), sites)
       else if (body%lattice == 'turned') then
@@ -88,12 +94,11 @@ contains
       integer :: i, j, k
 
       cell = (body%upper - body%lower)/n
-      do j = 1, n(2)
-         do i = 1, n(1)
-            k = (j - 1)*n(1) + i
-            sites%x(k) = body%lower(1) + cell(1)*(i - 0.5_dp)
-            sites%y(k) = body%lower(2) + cell(2)*(j - 0.5_dp)
-         end do
+      do k = lbound(sites%x, 1), ubound(sites%x, 1)
+         j = (k - 1)/n(1) + 1
+         i = k - (j - 1)*n(1)
+         sites%x(k) = body%lower(1) + cell(1)*(i - 0.5_dp)
+         sites%y(k) = body%lower(2) + cell(2)*(j - 0.5_dp)
       end do
       sites%area = product(cell)
    end subroutine place_on_lattice
@@ -116,12 +121,11 @@ contains
       integer :: i, j, k
 
       unit = (body%upper - body%lower)/(turned_rows*n)
-      do j = 0, turned_rows*n(2) - 1
-         do i = 0, n(1) - 1
-            k = j*n(1) + i + 1
-            sites%x(k) = body%lower(1) + unit(1)*(turned_rows*i + mod(turned_shift*j, turned_rows) + 0.5_dp)
-            sites%y(k) = body%lower(2) + unit(2)*(j + 0.5_dp)
-         end do
+      do k = lbound(sites%x, 1), ubound(sites%x, 1)
+         j = (k - 1)/n(1)
+         i = k - 1 - j*n(1)
+         sites%x(k) = body%lower(1) + unit(1)*(turned_rows*i + mod(turned_shift*j, turned_rows) + 0.5_dp)
+         sites%y(k) = body%lower(2) + unit(2)*(j + 0.5_dp)
       end do
       sites%area = turned_rows*product(unit)
    end subroutine place_on_turned_lattice
@@ -141,7 +145,7 @@ contains
       covered = (i + 0.5_dp)**2 + (j + 0.5_dp)**2 <= r**2
    end function covered
 
-   ! What the disc covers of a square lattice; equal areas that make up the disc's.
+   ! What the disc covers of a square lattice.
    pure subroutine place_on_cut_lattice(body, r, sites)
       type(body_settings), intent(in) :: body
       integer, intent(in) :: r   ! radius in cells
@@ -153,11 +157,11 @@ contains
          do i = -r, r - 1
             if (.not. covered(i, j, r)) cycle
             slot = slot + 1
+            if (slot < lbound(sites%x, 1) .or. slot > ubound(sites%x, 1)) cycle
             sites%x(slot) = body%centre(1) + body%radius/r*(i + 0.5_dp)
             sites%y(slot) = body%centre(2) + body%radius/r*(j + 0.5_dp)
          end do
       end do
-      sites%area = pi*body%radius**2/slot
    end subroutine place_on_cut_lattice
 
    ! Particles on ring k: its area pi (2k - 1) dx**2 in parts of about dx**2.
@@ -184,6 +188,7 @@ contains
          radius = width*sqrt((real(k, dp)**2 + real(k - 1, dp)**2)/2)
          do i = 1, n
             slot = slot + 1
+            if (slot < lbound(sites%x, 1) .or. slot > ubound(sites%x, 1)) cycle
             angle = 2*pi*(i + modulo(k*golden, 1.0_dp))/n
             sites%x(slot) = body%centre(1) + radius*cos(angle)
             sites%y(slot) = body%centre(2) + radius*sin(angle)

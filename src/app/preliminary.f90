@@ -197,13 +197,13 @@ contains
          if (run%time >= scene%time%end_time) exit
          stops = stop%reason /= ''
          call advance(model, p, near, run, scene%time%end_time, timers, stops)
-         if (stops(1)) call stop%agree()
          if (stops(1)) exit
          call check_step(model, p, run, scene%time%end_time, trouble)
          if (trouble%raised()) exit
          call refresh(model, p, near, run, timers)
          call progress%update(log, run%time, run%dt, run%step)
       end do
+      call stop%agree()
       call omp_set_num_threads(threads_before)
       if (run%scattered .and. .not. trouble%raised()) call check_step(model, p, run, scene%time%end_time, trouble)
       if (trouble%raised()) call problem%raise(exit_numerics, "the preliminary run for &fluid reference_speed = 'auto' (d/dx = " &

@@ -41,8 +41,6 @@ contains
                                       //" are free where '"//path//"' is: write less often, or elsewhere with --output DIR")
       memory = available_memory()
       needed = costs%bytes*processes_here()/n_processes()
-      ! Several processes: each knows the places and areas of all particles when it begins.
-      if (n_processes() > 1) needed = needed + 24.0_dp*costs%particles*processes_here()
       if (needed > memory) call problem%raise(exit_files, 'the run needs about '//size_text(needed) &
          //' of memory, and '//size_text(memory)//' are free: lower the resolution, or run it on a larger machine')
 

@@ -10,7 +10,7 @@ module scene_setup
    use kinds, only: dp
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
-   use number_order, only: process_of
+   use number_order, only: first_number
    use particles, only: allocate_particles, features_t, particles_t
    use resting_fluid, only: held_force
    use settings, only: is_wall, settings_t
@@ -129,30 +129,27 @@ contains
       type(particles_t), intent(out) :: p
       class(solution_t), allocatable :: solution
       type(sites_t) :: sites
-      integer :: k, i, slot, number, n, mine
+      integer :: k, i, slot, before, span(2)
       real(dp) :: position(2), velocity(2), pressure
 
       call allocate_particles(p, count_particles(scene)/n_processes() + 1, needed_features(scene, model))
       p%n = count_particles(scene)
       call new_solution(scene, model, solution)
+      ! Each process begins with a part of the numbers.
+      span = [first_number(this_process(), p%n), first_number(this_process() + 1, p%n) - 1]
       slot = 0
-      number = 0
-      n = p%n
-      mine = this_process()
+      before = 0
       do k = 1, size(scene%bodies)
-         associate (body => scene%bodies(k))
-            call place_sites(body, model%dx, sites)
-            do i = 1, size(sites%x)
-               number = number + 1
-               ! Each process begins with a part of the numbers.
-               if (process_of(number, n) /= mine) cycle
+         associate (body => scene%bodies(k), last => count_sites(scene%bodies(k), model%dx))
+            call place_sites(body, model%dx, sites, max(1, span(1) - before), min(last, span(2) - before))
+            do i = lbound(sites%x, 1), ubound(sites%x, 1)
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]
                velocity = body%velocity
                if (body%flow == 'exact') velocity = solution%velocity(position)
                pressure = pressure_at(scene, k, position)
                if (body%pressure == 'exact') pressure = solution%pressure(position)
-               p%id(slot) = number
+               p%id(slot) = before + i
                p%next%x(slot) = position(1)
                p%next%y(slot) = position(2)
                p%next%u(slot) = velocity(1)
@@ -161,6 +158,7 @@ contains
                p%next%volume(slot) = sites%area(i)
                p%m(slot) = (model%rho0 + p%next%s(slot))*sites%area(i)
             end do
+            before = before + last
          end associate
       end do
       p%n_own = slot

@@ -90,6 +90,7 @@ contains
       end if
       began = .true.
       call main_loop(scene, model, state, saving, stop, directory, log, timers, status, problem)
+      call stop%agree()
       ! A failed run keeps all that it has measured.
       call state%recorder%finish(directory, closing)
       reason = ''
@@ -268,8 +269,8 @@ contains
          call stop%watch(directory)
          notes = [problem%raised(), stop%reason /= '', saving%is_due_by_clock()]
          call advance(model, state%p, state%near, state%step, scene%time%end_time, timers, notes)
-         if (notes(cannot_write)) then
-            call problem%tell()
+         if (notes(cannot_write) .or. state%step%scattered) call problem%tell()
+         if (problem%raised()) then
             status = 'failed: output'
             state%step = before   ! the last one that was recorded
             exit

@@ -11,7 +11,7 @@ module communication
       mpi_initialized, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_logical, mpi_lor, mpi_max, &
       mpi_max_library_version_string, mpi_op, mpi_op_create, mpi_recv, mpi_request, mpi_send, mpi_status_ignore, &
       mpi_statuses_ignore, mpi_sum, mpi_test, mpi_testall, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
-      mpi_type_free, mpi_waitall, mpi_wtime
+      mpi_type_free, mpi_type_size, mpi_waitall, mpi_wtime
    implicit none
    private
 
@@ -183,11 +183,12 @@ contains
    subroutine combine_records(theirs, ours, n, kind)
       type(c_ptr), value :: theirs, ours
       integer :: n   !! records
-      type(mpi_datatype) :: kind   !! `record`
+      type(mpi_datatype) :: kind
       integer(i8), pointer, contiguous :: a(:), b(:)
       integer :: k, first, sums, length
 
-      length = merge(record_length, 0, kind%mpi_val == record%mpi_val)
+      call mpi_type_size(kind, length)
+      length = length/(storage_size(a)/8)
       call c_f_pointer(theirs, a, [n*length])
       call c_f_pointer(ours, b, [n*length])
       do first = 0, (n - 1)*length, length

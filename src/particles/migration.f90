@@ -95,7 +95,7 @@ contains
       integer, intent(in) :: id(:)
       integer(i8), intent(in) :: place(:), ends(2)   ! of each particle; of all
       integer(i8), allocatable :: loads(:)
-      integer(i8) :: each
+      integer(i8) :: each, k
       integer :: i, n_here
 
       n_here = count(id > 0)
@@ -103,7 +103,9 @@ contains
       if (.not. any_process(n_here > 0 .and. .not. self%busy > 0)) each = max(1_i8, nint(self%busy/max(1, n_here)*1.0e10_dp, i8))
       allocate (loads(ends(2) - ends(1) + 1), source=0_i8)
       do i = 1, size(id)
-         if (id(i) > 0) loads(place(i) - ends(1) + 1) = loads(place(i) - ends(1) + 1) + each
+         if (id(i) == 0) cycle
+         k = min(max(1_i8, place(i) - ends(1) + 1), size(loads, kind=i8))   ! bounds may be rounded otherwise
+         loads(k) = loads(k) + each
       end do
       call sums_of_all(size(loads), loads)
       call cut(self, ends(1), loads)

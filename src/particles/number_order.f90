@@ -6,7 +6,7 @@ module number_order
    implicit none
    private
 
-   public :: number_order_t, find_order, process_of, first_number
+   public :: number_order_t, find_order, first_number
 
    !> Where particles go to be in order.
    type :: number_order_t
@@ -21,7 +21,7 @@ module number_order
 
 contains
 
-   !> Who has a number of n, where they are in order.
+   ! Who has a number of n, where they are in order.
    integer function process_of(number, n) result(process)
       integer, intent(in) :: number, n
 

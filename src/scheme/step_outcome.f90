@@ -28,9 +28,21 @@ module step_outcome
       type(extent_t) :: extent                 !! in x, and of velocities
       logical :: lost = .false.                !! a particle left its range
       logical :: lasts = .false.               !! the lists serve for the next step
+   contains
+      procedure :: first_overreach
    end type outcome_t
 
 contains
+
+   !> Of the first stage from where lists do not reach; those behind it are of lists that did not. 0 if they all reach.
+   pure real(dp) function first_overreach(self)
+      class(outcome_t), intent(in) :: self
+      integer :: stage
+
+      first_overreach = 0
+      stage = findloc(self%overreach > 0, .true., 1)
+      if (stage > 0) first_overreach = self%overreach(stage)
+   end function first_overreach
 
    !> What the first sums tell all, in one reduction: the step of eq. 8 and the diffusive limits, and whether lists will be too
    !! short.

@@ -142,7 +142,7 @@ contains
             if (.not. any(all%overreach > 0)) at_most = min(at_most, all%limit)
             if (.not. (any(all%overreach > 0) .or. run%dt > grown*at_most)) exit
             ! A solution that has left its range by so much is no better the second time.
-            if (all%lost .and. maxval(all%overreach) > model%kernel%support) exit
+            if (all%lost .and. all%first_overreach() > model%kernel%support) exit
          end if
          ! Lists do not reach as far as some stage has led, the step is much longer than expected, or alpha_i and delta_i grew:
          ! again, with better margins.
@@ -213,16 +213,15 @@ contains
       integer :: stage
 
       farthest = 0
-      stage = 0
-      if (enough) then
-         stage = findloc(all%overreach > 0, .true., 1)   ! those behind it are of lists that do not reach
-         if (stage > 0) farthest = all%overreach(stage)
-      end if
+      if (enough) farthest = all%first_overreach()
       if (farthest > near%image_slack) near%slack = 2*farthest
       if (farthest > 0 .and. .not. farthest > near%image_slack) then
          call timers%start(phase_sort)
+         stage = findloc(all%overreach > 0, .true., 1)
          call widen_margins(near, model%integrator%ahead(stage)*run%dt, blocks%change(stage), blocks%change(1))
          call list_neighbours(near, p, model%kernel, near%travel)
+         ! Terms that are not frozen have left those of the last stage.
+         if (p%features%no_slip .and. .not. model%frozen) call fill_slip(near%images, model%box%after(run%time), p)
          call timers%stop(phase_sort)
       else
          call sort_again(model, p, near, run, timers)
