@@ -160,9 +160,11 @@ contains
       call list_images(self%images, box%after(self%tau), p, self%tau, self%image_travel, reach)
       scattered = self%images%strips%n < 0
       ! An image and what it is of are not farther from a side than `reach`.
-      associate (first => extent%lower(1) - 2*maxval(reach), last => extent%upper(1) + 2*maxval(reach))
-         if (too_scattered(self%images%strips, first, last, is_fluid=.false.)) scattered = any_process(scattered)
-      end associate
+      if (n_processes() > 1) then
+         associate (first => extent%lower(1) - 2*maxval(reach), last => extent%upper(1) + 2*maxval(reach))
+            if (too_scattered(self%images%strips, first, last, is_fluid=.false.)) scattered = any_process(scattered)
+         end associate
+      end if
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)

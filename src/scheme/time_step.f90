@@ -138,11 +138,13 @@ contains
             if (farthest > 0) call widen_margins(near, expected, blocks%ahead, blocks%behind)
             call reach_out(model, p, near, run, farthest > 0, timers)
             call stages(model, p, near, run, blocks, timers, all, told)
-            ! Terms that are not frozen: the coefficients of the later stages are known now.
-            if (.not. any(all%overreach > 0)) at_most = min(at_most, all%limit)
-            if (.not. (any(all%overreach > 0) .or. run%dt > grown*at_most)) exit
-            ! A solution that has left its range by so much is no better the second time.
-            if (all%lost .and. all%first_overreach() > model%kernel%support) exit
+            if (.not. all%first_overreach() > 0) then
+               ! Terms that are not frozen: the coefficients of the later stages are known now.
+               at_most = min(at_most, all%limit)
+               if (.not. run%dt > grown*at_most) exit
+            else if (all%lost .and. all%first_overreach() > model%kernel%support) then
+               exit   ! a solution that has left its range by so much is no better the second time
+            end if
          end if
          ! Lists do not reach as far as some stage has led, the step is much longer than expected, or alpha_i and delta_i grew:
          ! again, with better margins.
