@@ -37,7 +37,8 @@ enstrophies() { # D/DX SNAPSHOT...
       END { a = r[3] - r[1]; b = r[4] - r[2]; side = a < b ? a : b
             if (side > 8.01/size) printf "%s,%s,%s,%s %s", r[1], r[2], r[3], r[4], side }')
    [ -n "$rectangle" ] || return 0
-   "$build/bin/dynsph-spectra" vorticity --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
+   # Between the points of the grid on which it was found a fluid may be a little thinner.
+   "$build/bin/dynsph-spectra" vorticity --filling 0.7 --field --overwrite --rectangle "${rectangle% *}" "$@" | sed "1s/.*/$rectangle/"
 }
 
 # Makes facts noise_D/DX and tables noise_D/DX.tables: vorticity in a rectangle that lies inside all fluids, at t = 16 to 20; P1, while
