@@ -26,7 +26,7 @@ foreach(suite IN ITEMS communication diffusion dissipation dynamic_steps energy 
         search_margins time_step vortex_start)
    foreach(n IN ITEMS 2 3)
       add_test(NAME ranks_${n}_test_${suite} COMMAND ${launcher} ${n} $<TARGET_FILE:test_${suite}>)
-      set_tests_properties(ranks_${n}_test_${suite} PROPERTIES LABELS fast PROCESSORS 2 TIMEOUT 120
+      set_tests_properties(ranks_${n}_test_${suite} PROPERTIES PROCESSORS 2 TIMEOUT 120
          ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;GOMP_SPINCOUNT=1000;OMP_NUM_THREADS=1")
    endforeach()
 endforeach()
