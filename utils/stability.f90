@@ -116,7 +116,7 @@ contains
       scene%domain%top = 'periodic'
       scene%fluid%gravity = 0
       scene%fluid%sound_speed = 1
-      allocate (scene%bodies(1), scene%probes(0), scene%gauges(0))
+      allocate (scene%bodies(1), scene%solids(0), scene%probes(0), scene%gauges(0))
       scene%bodies(1)%upper = 1
       scene%bodies(1)%pressure = 'zero'
    end subroutine set_up

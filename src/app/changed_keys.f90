@@ -8,14 +8,17 @@ module changed_keys
    public :: change_t, list_changes
 
    integer, parameter :: longest_name = 64
+   integer, parameter :: longest_value = 400, shown_letters = 60   ! in a message: of a value, of a longer one
+   character(*), parameter :: number_letters = '+-.0123456789'
 
    !> Neither the flow nor what is in the files depends on these.
    character(*), parameter :: harmless(*) = [character(longest_name) :: 'time.end_time', 'time.max_steps', 'time.max_wall_time', &
-      'time.balance_limit', 'output.energy', 'output.probes', 'output.errors', 'output.snapshots', 'output.precision', &
-      'output.checkpoint']
+      'time.balance_limit', 'output.energy', 'output.probes', 'output.errors', 'output.solids', 'output.walls', &
+      'output.snapshots', 'output.precision', 'output.checkpoint']
 
    !> Tables that are there or not.
-   character(*), parameter :: tables(*) = [character(longest_name) :: 'output.energy', 'output.probes', 'output.errors']
+   character(*), parameter :: tables(*) = [character(longest_name) :: 'output.energy', 'output.probes', 'output.errors', &
+      'output.solids', 'output.walls']
 
    !> What the particles of a checkpoint are made of, and the solution that their history is compared with.
    character(*), parameter :: of_the_particles(*) = [character(longest_name) :: 'scene.reference_length', 'scene.resolution', &
@@ -80,6 +83,9 @@ contains
             group = line(2:)
          else if (equals > 0 .and. index(line, '!') /= 1) then
             call add(values, whole_name(group, number, line(:equals - 1)), '', line(equals + 3:))
+         else if (size(values) > 0 .and. line /= '' .and. verify(line(:min(1, len(line))), number_letters) == 0) then
+            ! A long list of numbers goes on.
+            values(size(values))%now = values(size(values))%now//' '//line
          end if
       end do
    end subroutine list_values
@@ -90,7 +96,7 @@ contains
       integer, intent(in) :: number
       character(:), allocatable :: name
 
-      if (any(group == [character(8) :: 'body', 'probe', 'gauge'])) then
+      if (any(group == [character(8) :: 'body', 'solid', 'probe', 'gauge'])) then
          name = group//'('//to_text(number)//').'//key
       else
          name = group//'.'//key
@@ -124,10 +130,19 @@ contains
       class(change_t), intent(in) :: self
       character(:), allocatable :: words
 
-      words = trim(self%key)//' = '//self%now//' (was '//self%before//')'
-      if (self%now == '') words = trim(self%key)//' without effect (was '//self%before//')'
-      if (self%before == '') words = trim(self%key)//' = '//self%now//' (was without effect)'
+      words = trim(self%key)//' = '//shown(self%now)//' (was '//shown(self%before)//')'
+      if (self%now == '') words = trim(self%key)//' without effect (was '//shown(self%before)//')'
+      if (self%before == '') words = trim(self%key)//' = '//shown(self%now)//' (was without effect)'
    end function words
+
+   ! A value, shortened to what a message has room for. Texts are never as long as lists of numbers are.
+   pure function shown(value) result(start)
+      character(*), intent(in) :: value
+      character(:), allocatable :: start
+
+      start = value
+      if (len(value) > longest_value) start = value(:shown_letters)//' ...'
+   end function shown
 
    !> Whether the results can go on in their files.
    logical function may_go_on(self)
@@ -142,7 +157,7 @@ contains
       class(change_t), intent(in) :: self
       integer :: k
 
-      may_fork = index(self%key, 'body(') /= 1
+      may_fork = index(self%key, 'body(') /= 1 .and. index(self%key, 'solid(') /= 1
       do k = 1, size(of_the_particles)
          if (index(self%key, trim(of_the_particles(k))) == 1) may_fork = .false.
       end do

@@ -2,6 +2,7 @@
 module document
    use findings, only: place_t
    use name_table, only: name_table_t
+   use settings, only: most_numbers
    use text, only: to_text
    implicit none
    private
@@ -9,7 +10,7 @@ module document
    public :: document_t, group_t, entry_t, value_t
 
    character, parameter :: parted = achar(0)    ! no name has this letter
-   integer, parameter :: most_kept = 1000       ! values of a key; none takes as many, more are only counted
+   integer, parameter :: most_kept = most_numbers   ! values of a key; more are only counted
 
    !> One value as written; quotes are taken off.
    type :: value_t
@@ -22,7 +23,7 @@ module document
       character(:), allocatable :: key       !! in lower case
       integer :: element = 0                 !! 0: the whole key
       type(place_t) :: place
-      type(value_t), allocatable :: values(:)   !! (n) and room for more; the first 1,000
+      type(value_t), allocatable :: values(:)   !! (n) and room for more; those that are kept
       integer :: n = 0                          !! values given
       character(:), allocatable :: option    !! text behind the '=' of --set, not taken apart yet
       logical :: broken = .false.            !! a mistake in it is noted already

@@ -7,7 +7,7 @@ module key_reader
    use kinds, only: dp
    use scanner, only: letters, scan_option
    use scene_keys, only: count_groups, groups, list_keys
-   use settings, only: group_names, name_length
+   use settings, only: group_names, most_numbers, name_length
    use text, only: has_control_characters, lower_case, nearest_word, parse_integer, parse_real, quoted, to_text
    implicit none
    private
@@ -21,6 +21,7 @@ contains
       type(draft_t), intent(inout), target :: draft
 
       allocate (draft%scene%bodies(draft%document%count_of('body')))
+      allocate (draft%scene%solids(draft%document%count_of('solid')))
       allocate (draft%scene%probes(draft%document%count_of('probe')))
       allocate (draft%scene%gauges(draft%document%count_of('gauge')))
       call visit_groups(draft, checking=.false.)
@@ -52,7 +53,11 @@ contains
                if (checking) call check_group(group, keys, draft%notes)
                if (checking) cycle
                do i = 1, keys%n
-                  call read_key(group, keys%items(i), draft%notes)
+                  if (associated(keys%items(i)%numbers)) then
+                     call read_numbers(group, keys%items(i), draft%notes)
+                  else
+                     call read_key(group, keys%items(i), draft%notes)
+                  end if
                end do
             end associate
          end do
@@ -252,6 +257,37 @@ contains
 
    end subroutine read_key
 
+   ! The numbers that a group lists for a key.
+   subroutine read_numbers(group, key, notes)
+      type(group_t), intent(inout) :: group
+      type(key_t), intent(inout) :: key
+      type(findings_t), intent(inout) :: notes
+      character(:), allocatable :: problem
+      integer :: i, k
+
+      do i = 1, group%n
+         if (group%entries(i)%key /= key%name) cycle
+         associate (item => group%entries(i))
+            item%known = .true.
+            if (allocated(item%option)) call scan_option(item, .false., notes, group%name)
+            if (item%broken) cycle
+            problem = ''
+            if (item%element > 0) problem = '('//to_text(item%element)//') is set; give all of its numbers at once'
+            if (item%n > most_numbers) problem = ' has '//to_text(item%n)//' values; at most '//to_text(most_numbers) &
+                                                 //' are possible'
+            item%taken = problem == ''
+            if (item%taken) then
+               if (allocated(key%numbers%values)) deallocate (key%numbers%values)
+               allocate (key%numbers%values(item%n), source=0.0_dp)
+               do k = 1, item%n
+                  if (problem == '') call take_number(key, k, item%values(k), problem)
+               end do
+            end if
+            if (problem /= '') call notes%mistake(item%place, group%name, '&'//group%name//' '//trim(key%name)//problem)
+         end associate
+      end do
+   end subroutine read_numbers
+
    ! What is wrong with the number of values, '' when nothing is.
    pure function count_problem(item, length, fewer_allowed) result(problem)
       type(entry_t), intent(in) :: item
@@ -320,6 +356,7 @@ contains
       else
          if (associated(key%number)) key%number = number
          if (associated(key%vector)) key%vector(at) = number
+         if (associated(key%numbers)) key%numbers%values(at) = number
          if (associated(key%whole)) key%whole = whole
       end if
    end subroutine take_number

@@ -1,14 +1,16 @@
 !> What is known of an input key, and where its value is: a row of the table that module `scene_keys` holds.
 module key_table
+   use growing_text, only: growing_text_t
    use kinds, only: dp
-   use settings, only: choice_length, name_length
+   use settings, only: choice_length, name_length, number_list_t
    use text, only: quoted, short, to_text
    implicit none
    private
 
    public :: key_t, keys_t, range_t, listed
 
-   integer, parameter :: most_keys = 16           ! of a group
+   integer, parameter :: most_keys = 24           ! of a group
+   integer, parameter :: per_line = 4             ! numbers of a long list
 
    !> Numbers a key may have.
    type :: range_t
@@ -24,8 +26,8 @@ module key_table
    type(range_t), parameter, public :: not_negative = range_t(lower=0.0_dp)
 
    !> A key; its value is that component of the scene to which one of these points:
-   !! `number`, `vector` (all its numbers are wanted), `whole`, `words` (free text, or one word out of `choices`), `list` (some
-   !! different words out of `choices`).
+   !! `number`, `vector` (all its numbers are wanted), `numbers` (as many as there are), `whole`, `words` (free text, or one word
+   !! out of `choices`), `list` (some different words out of `choices`).
    type :: key_t
       character(name_length) :: name = ''
       character(200) :: meaning = ''
@@ -34,6 +36,7 @@ module key_table
       logical :: required = .false.
       real(dp), pointer :: number => null()
       real(dp), pointer :: vector(:) => null()
+      type(number_list_t), pointer :: numbers => null()
       integer, pointer :: whole => null()
       character(choice_length), allocatable :: choices(:)
       logical, pointer :: chosen => null()     !! choices(1) stands in the place of the number
@@ -93,13 +96,14 @@ contains
       if (associated(self%list)) length = size(self%list)
    end function length
 
-   !> The value as a namelist has it.
+   !> The value as a namelist has it; a long list of numbers takes several lines.
    pure function value_text(self) result(words)
       class(key_t), intent(in) :: self
       character(:), allocatable :: words
 
       if (associated(self%number)) words = to_text(self%number)
       if (associated(self%vector)) words = to_text(self%vector)
+      if (associated(self%numbers)) words = in_lines(self%numbers)
       if (associated(self%whole)) words = to_text(self%whole)
       if (associated(self%words)) words = quoted(self%words)
       if (associated(self%list)) words = listed(self%list(:self%used))
@@ -108,6 +112,21 @@ contains
       end if
    end function value_text
 
+   ! Numbers parted by commas, on as many lines as it takes.
+   pure function in_lines(numbers) result(words)
+      type(number_list_t), intent(in) :: numbers
+      character(:), allocatable :: words
+      type(growing_text_t) :: lines
+      integer :: i
+
+      do i = 1, numbers%n()
+         if (i > 1) call lines%add(', ')
+         if (i > 1 .and. mod(i, per_line) == 1) call lines%add(new_line('a')//'      ')
+         call lines%add(to_text(numbers%values(i)))
+      end do
+      words = lines%text()
+   end function in_lines
+
    !> What the value may be.
    pure function range_text(self) result(words)
       class(key_t), intent(in) :: self
@@ -115,6 +134,8 @@ contains
 
       if (associated(self%list)) then
          words = 'some of '//listed(self%choices)
+      else if (associated(self%numbers)) then
+         words = 'list of numbers'
       else if (.not. associated(self%words)) then
          words = self%range%in_words()
          if (associated(self%chosen)) words = words//', or '//quoted(self%choices(1))

@@ -64,7 +64,7 @@ contains
       type(resting_force_t) :: force
       integer :: g, number
 
-      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
+      allocate (defaults%bodies(1), defaults%solids(1), defaults%probes(1), defaults%gauges(1))
       copy = as_given(scene)
       ! Hydrostatic pressure, the default, is none where nothing presses.
       force = resting_force(scene)
@@ -178,7 +178,7 @@ contains
       type(keys_t) :: keys
       integer :: g, i
 
-      allocate (defaults%bodies(1), defaults%probes(1), defaults%gauges(1))
+      allocate (defaults%bodies(1), defaults%solids(1), defaults%probes(1), defaults%gauges(1))
       do g = 1, size(groups)
          call list_keys(defaults, solutions, groups(g)%name, 1, keys)
          call lines%add_line('')
@@ -206,6 +206,7 @@ contains
       character(:), allocatable :: row
 
       row = '`'//key%value_text()//'`'
+      if (associated(key%numbers)) row = 'none'
       if (key%required) row = '**required**'
       row = '| `'//trim(key%name)//'` | '//row//' | '//trim(key%unit)//' | '//key%range_text()//' | '//escaped(trim(key%meaning))
       if (key%condition /= '') row = row//' Only with '//trim(key%condition)//'.'

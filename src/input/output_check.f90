@@ -24,6 +24,8 @@ contains
          call check_cadence(draft, 'energy', output%energy)
          call check_cadence(draft, 'probes', output%probes)
          call check_cadence(draft, 'errors', output%errors)
+         call check_cadence(draft, 'solids', output%solids)
+         call check_cadence(draft, 'walls', output%walls)
          call check_cadence(draft, 'snapshots', output%snapshots)
          call check_cadence(draft, 'checkpoint', output%checkpoint)
          if (draft%notes%clean('output model') .and. draft%scene%model%diffusion /= 'dynamic') call check_fields(draft)

@@ -21,7 +21,7 @@ module scanner
    character(*), parameter :: name_letters = letters//'0123456789_'
    character(*), parameter :: blanks = ' '//achar(9)//achar(10)//achar(13)
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
-   integer, parameter :: most_repeats = 1000    ! of r*c; no key takes as many values
+   integer, parameter :: most_repeats = 1000    ! of r*c
    integer, parameter :: shown_letters = 40     ! of a line that is quoted in a message; also the longest (index)
 
    !> A place in the text, and where to tell what is wrong with it.

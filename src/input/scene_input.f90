@@ -10,6 +10,7 @@ module scene_input
    use scanner, only: scan_namelist
    use settings, only: settings_t
    use settings_check, only: check_settings
+   use solid_files, only: complete_lists
    implicit none
    private
 
@@ -68,7 +69,7 @@ contains
       message = what_is_no_text(content)
       if (message /= '' .and. .not. problem%raised()) call problem%raise(exit_input, file//': '//message)
       if (problem%raised()) then
-         allocate (scene%bodies(0), scene%probes(0), scene%gauges(0))
+         allocate (scene%bodies(0), scene%solids(0), scene%probes(0), scene%gauges(0))
       else
          call scan_namelist(content, draft%document, draft%notes)
          do i = 1, size(overrides)
@@ -77,6 +78,7 @@ contains
          call read_values(draft)
          call resolve_model(draft)
          call check_keys(draft)
+         call complete_lists(draft)
          call resolve_settings(draft)
          call check_settings(draft)
          scene = draft%scene

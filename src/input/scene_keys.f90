@@ -6,7 +6,7 @@ module scene_keys
    use key_table, only: key_t, keys_t, not_negative, positive, range_t
    use kinds, only: dp
    use known_solutions, only: known_solutions_t
-   use settings, only: body_settings, choice_length, group_names, settings_t
+   use settings, only: body_settings, choice_length, group_names, settings_t, solid_settings
    implicit none
    private
 
@@ -38,6 +38,7 @@ module scene_keys
       known_group_t('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.), &
       known_group_t('force', 'What acts on the fluid besides gravity.', .false., .false.), &
       known_group_t('body', 'A block of fluid at the start.', .true., .true.), &
+      known_group_t('solid', 'A rigid body in the fluid, at rest or moved.', .false., .true.), &
       known_group_t('model', 'The diffusive terms.', .false., .false.), &
       known_group_t('exact', 'The exact solution that the scene follows; errors are written to errors.dat.', .false., .false.), &
       known_group_t('time', 'The time step and the end of the run.', .true., .false.), &
@@ -69,6 +70,7 @@ contains
 
       n = 1
       if (group == 'body') n = size(scene%bodies)
+      if (group == 'solid') n = size(scene%solids)
       if (group == 'probe') n = size(scene%probes)
       if (group == 'gauge') n = size(scene%gauges)
    end function count_groups
@@ -130,6 +132,9 @@ contains
          end associate
       case ('body')
          call add_keys_of_body(scene%bodies(number), keys)
+      case ('solid')
+         call add_keys_of_shape(scene%solids(number), keys)
+         call add_keys_of_motion(scene%solids(number), keys)
       end select
    end subroutine add_keys_of_fluid
 
@@ -158,6 +163,61 @@ contains
       call keys%add(key_t('pressure', 'Pressure at the start; incompressible: of a column that has just lost its gate.', &
                           choices=[character(choice_length) :: 'hydrostatic', 'incompressible', 'zero', 'exact']), body%pressure)
    end subroutine add_keys_of_body
+
+   ! What a solid is, and how the fluid meets it.
+   subroutine add_keys_of_shape(solid, keys)
+      type(solid_settings), intent(inout), target :: solid
+      type(keys_t), intent(inout) :: keys
+
+      call keys%add(key_t('name', 'Name of its columns: letters, digits, _ and -.', required=.true.), solid%name)
+      call keys%add(key_t('shape', 'Shape: a polygon, a rectangle from lower to upper, or a disc around centre.', &
+                          choices=[character(choice_length) :: 'polygon', 'rectangle', 'disc']), solid%shape)
+      call keys%only_with("shape = 'polygon'", solid%shape == 'polygon')
+      call keys%add(key_t('vertices', 'Its 3 to 1000 vertices, x and y of each in turn, counter-clockwise.', 'm', &
+                          numbers=solid%vertices))
+      call keys%add(key_t('vertices_file', 'Instead of vertices: a text file with x and y of a vertex in each line; its path '// &
+                          "from the scene's file on. It is read in as vertices."), solid%vertices_file)
+      call keys%only_with("shape = 'rectangle'", solid%shape == 'rectangle')
+      call keys%add(key_t('lower', 'Lower left corner, x and y.', 'm', required=.true., vector=solid%lower))
+      call keys%add(key_t('upper', 'Upper right corner, x and y.', 'm', required=.true., vector=solid%upper))
+      call keys%only_with("shape = 'disc'", solid%shape == 'disc')
+      call keys%add(key_t('centre', 'Centre, x and y.', 'm', required=.true., vector=solid%centre))
+      call keys%add(key_t('radius', 'Radius.', 'm', positive, .true., solid%radius))
+      call keys%only_with('', .true.)
+      call keys%add(key_t('angle', 'Angle it is turned by, counter-clockwise about pivot.', 'degrees', number=solid%angle))
+      call keys%add(key_t('pivot', 'Point it is turned about and moments are taken about, x and y; by default the centroid '// &
+                          'of the shape.', 'm', vector=solid%pivot))
+      call keys%add(key_t('surface', 'Whether the fluid slips along it.', &
+                          choices=[character(choice_length) :: 'free_slip', 'no_slip']), solid%surface)
+      call keys%add(key_t('fluid', 'Where a &body overlaps it: leave out the fluid that would be inside, or end.', &
+                          choices=[character(choice_length) :: 'cut', 'refuse']), solid%fluid)
+   end subroutine add_keys_of_shape
+
+   ! How a solid moves.
+   subroutine add_keys_of_motion(solid, keys)
+      type(solid_settings), intent(inout), target :: solid
+      type(keys_t), intent(inout) :: keys
+
+      call keys%add(key_t('motion', 'How it moves from where it is drawn: shifts, and turns about pivot.', &
+                          choices=[character(choice_length) :: 'none', 'uniform', 'oscillation', 'table']), solid%motion)
+      call keys%only_with("motion = 'uniform'", solid%motion == 'uniform')
+      call keys%add(key_t('velocity', 'Velocity, x and y.', 'm/s', vector=solid%velocity))
+      call keys%add(key_t('spin', 'Rate at which it turns, counter-clockwise about pivot.', 'degrees/s', number=solid%spin))
+      call keys%only_with("motion = 'oscillation'", solid%motion == 'oscillation')
+      call keys%add(key_t('amplitude', 'Amplitude of its shift, x and y.', 'm', vector=solid%amplitude))
+      call keys%add(key_t('swing', 'Amplitude of its angle.', 'degrees', number=solid%swing))
+      call keys%add(key_t('period', 'Period of the oscillation.', 's', positive, .true., solid%period))
+      call keys%add(key_t('phase', 'Phase of the oscillation at t = 0; with 0 it begins in the middle.', 'degrees', &
+                          number=solid%phase))
+      call keys%add(key_t('ramp', 'Time within which the oscillation sets in. 0: at once.', 's', not_negative, &
+                          number=solid%ramp))
+      call keys%only_with("motion = 'table'", solid%motion == 'table')
+      call keys%add(key_t('table', 'Its way in 2 to 2000 rows of time [s], shift in x and y [m] and angle [degrees]; it rests '// &
+                          'after the last.', 's, m, degrees', numbers=solid%table))
+      call keys%add(key_t('table_file', 'Instead of table: a text file with a row in each line, the angle may lack; its path '// &
+                          "from the scene's file on. It is read in as table."), solid%table_file)
+      call keys%only_with('', .true.)
+   end subroutine add_keys_of_motion
 
    ! How it is computed.
    subroutine add_keys_of_method(scene, solutions, group, keys)
@@ -234,7 +294,11 @@ contains
             call keys%add(key_t('probes', 'How often a line of the probe table is written.'), output%probes)
             call keys%only_with('an &exact solution', scene%exact%solution /= 'none')
             call keys%add(key_t('errors', 'How often a line of the error table is written.'), output%errors)
+            call keys%only_with('a &solid group', size(scene%solids) > 0)
+            call keys%add(key_t('solids', 'How often a line of the table of forces on solids is written.'), output%solids)
             call keys%only_with('', .true.)
+            call keys%add(key_t('walls', 'How often a line of the table of forces on the walls of the box is written.'), &
+                          output%walls)
             call keys%add(key_t('snapshots', 'How often all particles are written.'), output%snapshots)
             call keys%add(key_t('fields', 'What snapshots hold.', choices=field_names, list=output%fields, used=output%n_fields))
             call keys%add(key_t('precision', 'Precision of the fields in snapshots.', &

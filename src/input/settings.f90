@@ -10,16 +10,18 @@ module settings
 
    public :: settings_t, scene_settings, domain_settings, fluid_settings, force_settings, body_settings
    public :: exact_settings, model_settings, time_settings, output_settings, probe_settings, gauge_settings
-   public :: is_wall
+   public :: solid_settings, number_list_t, is_wall
 
    integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
    integer, parameter, public :: title_length = 120    !! characters of a scene's title
    integer, parameter, public :: name_length = 32      !! characters of names and cadences
    integer, parameter, public :: choice_length = 16    !! characters of a choice
+   integer, parameter, public :: path_length = 240     !! characters of the path of a file that a scene names
+   integer, parameter, public :: most_numbers = 8000   !! numbers that a key may list
 
    !> The namelist groups in the order in which they are written.
-   character(6), parameter, public :: group_names(11) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'body', 'model', &
-                                                         'exact', 'time', 'output', 'probe', 'gauge']
+   character(6), parameter, public :: group_names(12) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'body', 'solid', &
+                                                         'model', 'exact', 'time', 'output', 'probe', 'gauge']
 
    !> The sides of the box in the order of `side_kinds`.
    character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
@@ -76,6 +78,39 @@ module settings
       character(choice_length) :: pressure = 'hydrostatic'
    end type body_settings
 
+   !> As many numbers as a scene lists; a scene that lists none keeps none.
+   type :: number_list_t
+      real(dp), allocatable :: values(:)
+   contains
+      procedure :: n => numbers_there
+   end type number_list_t
+
+   !> &solid: a rigid body in the fluid. After reading, `vertices` and `table` hold what their files held, and `pivot` is that used.
+   type :: solid_settings
+      character(name_length) :: name = ''
+      character(choice_length) :: shape = 'polygon'
+      type(number_list_t) :: vertices                !! of a polygon, counter-clockwise: x, y of each [m]
+      character(path_length) :: vertices_file = ''   !! '' after reading
+      real(dp) :: lower(2) = 0.0_dp                  !! lower left corner of a rectangle [m]
+      real(dp) :: upper(2) = 0.0_dp                  !! its upper right corner [m]
+      real(dp) :: centre(2) = 0.0_dp                 !! of a disc [m]
+      real(dp) :: radius = 0.0_dp                    !! of a disc [m]
+      real(dp) :: angle = 0.0_dp                     !! it is turned by, counter-clockwise [degrees]
+      real(dp) :: pivot(2) = 0.0_dp                  !! about which it is turned, and moments are taken [m]
+      character(choice_length) :: surface = 'free_slip'
+      character(choice_length) :: fluid = 'cut'      !! what to do with a body of fluid that overlaps it
+      character(choice_length) :: motion = 'none'
+      real(dp) :: velocity(2) = 0.0_dp               !! of uniform motion [m/s]
+      real(dp) :: spin = 0.0_dp                      !! of uniform motion [degrees/s]
+      real(dp) :: amplitude(2) = 0.0_dp              !! of an oscillation [m]
+      real(dp) :: swing = 0.0_dp                     !! amplitude of its angle [degrees]
+      real(dp) :: period = 0.0_dp                    !! [s]
+      real(dp) :: phase = 0.0_dp                     !! [degrees]
+      real(dp) :: ramp = 0.0_dp                      !! within which an oscillation sets in [s]
+      type(number_list_t) :: table                   !! t [s], shift in x and y [m], angle [degrees] of each row
+      character(path_length) :: table_file = ''      !! '' after reading
+   end type solid_settings
+
    !> &exact: the exact solution that the scene follows.
    type :: exact_settings
       character(choice_length) :: solution = 'none'
@@ -113,6 +148,8 @@ module settings
       character(name_length) :: energy = '10 steps'
       character(name_length) :: probes = '1 steps'
       character(name_length) :: errors = '10 steps'
+      character(name_length) :: solids = '10 steps'
+      character(name_length) :: walls = 'never'
       character(name_length) :: snapshots = '1 time'
       character(name_length) :: fields(max_fields) = &
          [character(name_length) :: 'velocity', 'pressure', '', '', '', '', '', '', '', '', '', '']
@@ -148,6 +185,7 @@ module settings
       type(time_settings) :: time
       type(output_settings) :: output
       type(body_settings), allocatable :: bodies(:)
+      type(solid_settings), allocatable :: solids(:)
       type(probe_settings), allocatable :: probes(:)
       type(gauge_settings), allocatable :: gauges(:)
    contains
@@ -218,6 +256,14 @@ contains
 
       has_acceleration = any(abs(self%force%acceleration) > 0.0_dp)
    end function has_acceleration
+
+   !> How many numbers are listed.
+   pure integer function numbers_there(self)
+      class(number_list_t), intent(in) :: self
+
+      numbers_there = 0
+      if (allocated(self%values)) numbers_there = size(self%values)
+   end function numbers_there
 
    !> True for a side of the box that holds the fluid back.
    elemental logical function is_wall(side)
