@@ -1,15 +1,18 @@
-!> Works out what follows from the keys: the model, boxes around discs, pressure without weight, the sound speed, the viscosity.
+!> Works out what follows from the keys: the model, boxes around discs, pivots of solids, pressure without weight, the sound speed,
+!! the viscosity.
 module derived_settings
    use draft, only: draft_t
    use kinds, only: dp
    use known_solutions, only: known_solutions_t
+   use motions, only: motion_t
    use resting_fluid, only: resting_force, resting_force_t
-   use settings, only: body_settings, is_wall, settings_t
+   use settings, only: body_settings, is_wall, settings_t, solid_settings
+   use solid_outlines, only: shape_centroid, solid_motion, solid_radius
    use text, only: to_text
    implicit none
    private
 
-   public :: resolve_model, resolve_settings, set_reference_speed, start_speed, reach
+   public :: resolve_model, resolve_settings, set_reference_speed, start_speed, solid_speed, reach
 
 contains
 
@@ -30,6 +33,7 @@ contains
       type(draft_t), intent(inout) :: draft
 
       call enclose_discs(draft%scene%bodies)
+      if (draft%notes%clean('solid scene')) call resolve_pivots(draft)
       if (draft%notes%clean('fluid force domain')) call resolve_pressures(draft)
       if (draft%notes%clean('fluid')) call resolve_sound_speed(draft)
       if (draft%notes%clean('fluid scene')) call resolve_viscosity(draft)
@@ -56,6 +60,17 @@ contains
          bodies(i)%upper = bodies(i)%centre + bodies(i)%radius
       end do
    end subroutine enclose_discs
+
+   !> Solids turn about their centroids unless their pivots are given.
+   pure subroutine resolve_pivots(draft)
+      type(draft_t), intent(inout) :: draft
+      integer :: i
+
+      do i = 1, size(draft%scene%solids)
+         if (draft%document%given('solid', i, 'pivot')) cycle
+         draft%scene%solids(i)%pivot = shape_centroid(draft%scene, draft%scene%solids(i))
+      end do
+   end subroutine resolve_pivots
 
    !> Without a force that it balances, hydrostatic pressure is none.
    subroutine resolve_pressures(draft)
@@ -99,6 +114,7 @@ contains
       type(draft_t), intent(inout) :: draft
       character(*), parameter :: auto = "&fluid reference_speed = 'auto' "
       real(dp) :: speed
+      integer :: i
 
       associate (fluid => draft%scene%fluid)
          if (fluid%sound_speed > 0.0_dp) then
@@ -108,11 +124,16 @@ contains
             call draft%mistake('fluid', 1, 'reference_speed', auto//'needs mach, the Mach number to have: mach = 0.1')
          else
             speed = guessed_speed(draft%scene, draft%solutions)
+            if (draft%notes%clean('solid scene')) then
+               do i = 1, size(draft%scene%solids)
+                  speed = max(speed, solid_speed(draft%scene, draft%scene%solids(i)))
+               end do
+            end if
             if (.not. speed > 0.0_dp .and. draft%notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
                call draft%mistake('fluid', 1, 'reference_speed', auto//'has nothing to find: no gravity, ' &
-                                  //'force, velocity or moving wall; give one, or sound_speed in the place of mach')
+                                  //'force, velocity, moving wall or solid; give one, or sound_speed in the place of mach')
             end if
             fluid%sound_speed = speed/fluid%mach
          end if
@@ -139,6 +160,16 @@ contains
          end do
       end associate
    end function guessed_speed
+
+   !> Bound of the speed of any point of a solid, at any time [m/s].
+   pure real(dp) function solid_speed(scene, solid) result(speed)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid   !! its pivot is known
+      type(motion_t) :: motion
+
+      motion = solid_motion(solid)
+      speed = motion%largest_speed(solid_radius(scene, solid))
+   end function solid_speed
 
    !> Largest speed that a body starts with or the central field soon gives it [m/s].
    real(dp) function start_speed(scene, body, solutions) result(speed)

@@ -43,6 +43,7 @@ module key_table
       character(name_length), pointer :: list(:) => null()
       integer, pointer :: used => null()       !! words of the list
       character(:), pointer :: words => null()
+      logical :: follows = .false.             !! from other keys, where it is not given
       character(64) :: condition = ''          !! what it has an effect with, as in "shape = 'disc'"; '' for nothing
       logical :: active = .true.               !! the scene has that
    contains

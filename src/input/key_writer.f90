@@ -155,13 +155,14 @@ contains
    end subroutine add_short_group
 
    ! What it means, and `key = default   ! [unit] range`; a key that must be given is left empty: what is not filled in is refused.
+   ! One that follows from others is not set.
    function template_lines(key) result(line)
       type(key_t), intent(in) :: key
       character(:), allocatable :: line
 
       line = trim(key%name)//' ='
-      if (.not. key%required) line = line//' '//key%value_text()
-      if (.not. key%active) line = '! '//line
+      if (.not. (key%required .or. key%follows)) line = line//' '//key%value_text()
+      if (key%follows .or. .not. key%active) line = '! '//line
       line = '   ! '//trim(key%meaning)//new_line('a')//'   '//line//repeat(' ', max(0, value_width - len(line)))//'   ! '
       if (key%unit /= '') line = line//'['//trim(key%unit)//'] '
       if (key%required) line = line//'required; '
@@ -207,6 +208,7 @@ contains
 
       row = '`'//key%value_text()//'`'
       if (associated(key%numbers)) row = 'none'
+      if (key%follows) row = 'follows'
       if (key%required) row = '**required**'
       row = '| `'//trim(key%name)//'` | '//row//' | '//trim(key%unit)//' | '//key%range_text()//' | '//escaped(trim(key%meaning))
       if (key%condition /= '') row = row//' Only with '//trim(key%condition)//'.'

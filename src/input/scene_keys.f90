@@ -186,7 +186,7 @@ contains
       call keys%only_with('', .true.)
       call keys%add(key_t('angle', 'Angle it is turned by, counter-clockwise about pivot.', 'degrees', number=solid%angle))
       call keys%add(key_t('pivot', 'Point it is turned about and moments are taken about, x and y; by default the centroid '// &
-                          'of the shape.', 'm', vector=solid%pivot))
+                          'of the shape.', 'm', vector=solid%pivot, follows=.true.))
       call keys%add(key_t('surface', 'Whether the fluid slips along it.', &
                           choices=[character(choice_length) :: 'free_slip', 'no_slip']), solid%surface)
       call keys%add(key_t('fluid', 'Where a &body overlaps it: leave out the fluid that would be inside, or end.', &

@@ -5,7 +5,7 @@ module solid_files
    use kinds, only: dp
    use number_files, only: read_rows
    use settings, only: number_list_t, solid_settings
-   use text, only: to_text
+   use text, only: quoted, to_text
    implicit none
    private
 
@@ -31,9 +31,29 @@ contains
             if (draft%document%groups(draft%document%index_of('solid', i))%unsure) cycle
             if (solid%shape == 'polygon') call complete_vertices(draft, i, solid, sure)
             if (solid%motion == 'table') call complete_table(draft, i, solid, sure)
+            if (is_out_of_reason(solid)) call draft%mistake('solid', i, '', '&solid '//quoted(solid%name) &
+               //': all its numbers must be below 1e30, and times above 1e-30: choose other units')
          end associate
       end do
    end subroutine complete_lists
+
+   ! Whether products of its numbers could be none.
+   pure logical function is_out_of_reason(solid)
+      type(solid_settings), intent(in) :: solid
+      real(dp), parameter :: most = 1.0e30_dp, least = 1.0e-30_dp   ! period and ramp are 0 where there are none
+      real(dp), allocatable :: times(:)
+
+      is_out_of_reason = maxval(abs([solid%lower, solid%upper, solid%centre, solid%radius, solid%angle, solid%pivot, &
+                                     solid%velocity, solid%spin, solid%amplitude, solid%swing, solid%period, solid%phase, &
+                                     solid%ramp])) > most .or. any([solid%period, solid%ramp] > 0.0_dp .and. &
+                                                                   [solid%period, solid%ramp] < least)
+      if (solid%vertices%n() > 0) is_out_of_reason = is_out_of_reason .or. maxval(abs(solid%vertices%values)) > most
+      if (solid%table%n() < 2*in_row) return
+      is_out_of_reason = is_out_of_reason .or. maxval(abs(solid%table%values)) > most
+      times = solid%table%values(1::in_row)
+      is_out_of_reason = is_out_of_reason .or. any(times(2:) > times(:size(times) - 1) .and. &
+                                                   times(2:) - times(:size(times) - 1) < least)
+   end function is_out_of_reason
 
    ! The vertices of a polygon.
    subroutine complete_vertices(draft, number, solid, sure)

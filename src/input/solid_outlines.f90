@@ -1,0 +1,129 @@
+!> Where solids are drawn, and how they move: what their settings mean, in numbers.
+module solid_outlines
+   use kinds, only: dp
+   use motions, only: motion_t, move_point, oscillating, pose_t, tabulated, uniform
+   use polygons, only: polygon_centroid, regular_polygon, turned
+   use settings, only: settings_t, solid_settings
+   use smooth_tables, only: new_smooth_table
+   implicit none
+   private
+
+   public :: solid_outline, starting_outline, solid_motion, shape_centroid, solid_radius
+
+   real(dp), parameter :: pi = acos(-1.0_dp)
+   real(dp), parameter :: degree = pi/180
+   integer, parameter :: corners_range(2) = [24, 720]   ! of a polygon that stands for a disc
+   integer, parameter :: per_spacing = 2                ! such corners for each dx of its circumference
+
+contains
+
+   !> A solid as it is drawn: turned by its angle about its pivot, not yet moved. Counter-clockwise if its vertices are; a disc
+   !! is a regular polygon of the same area.
+   pure function solid_outline(scene, solid) result(vertices)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid   !! its pivot is known
+      real(dp), allocatable :: vertices(:, :)     !! (2, n) [m]
+
+      vertices = turned(shape_of(scene, solid), solid%pivot, solid%angle*degree)
+   end function solid_outline
+
+   !> A solid where it is at t = 0.
+   pure function starting_outline(scene, solid) result(vertices)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid
+      real(dp), allocatable :: vertices(:, :)     !! (2, n) [m]
+      real(dp) :: place(2), velocity(2), acceleration(2)
+      type(motion_t) :: motion
+      type(pose_t) :: pose
+      integer :: k
+
+      vertices = solid_outline(scene, solid)
+      motion = solid_motion(solid)
+      pose = motion%at(0.0_dp)
+      do k = 1, size(vertices, 2)
+         call move_point(pose, solid%pivot, vertices(:, k), place, velocity, acceleration)
+         vertices(:, k) = place
+      end do
+   end function starting_outline
+
+   !> How a solid moves from where it is drawn.
+   pure type(motion_t) function solid_motion(solid) result(motion)
+      type(solid_settings), intent(in) :: solid   !! with its table, if it follows one
+      real(dp), allocatable :: rows(:, :)
+
+      select case (solid%motion)
+      case ('uniform')
+         motion%kind = uniform
+         motion%velocity = solid%velocity
+         motion%spin = solid%spin*degree
+      case ('oscillation')
+         motion%kind = oscillating
+         motion%amplitude = solid%amplitude
+         motion%swing = solid%swing*degree
+         motion%period = solid%period
+         motion%phase = solid%phase*degree
+         motion%ramp = solid%ramp
+      case ('table')
+         motion%kind = tabulated
+         rows = transpose(reshape(solid%table%values, [4, solid%table%n()/4]))
+         rows(:, 4) = rows(:, 4)*degree
+         motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
+      end select
+   end function solid_motion
+
+   !> Centroid of a solid's shape, not turned [m].
+   pure function shape_centroid(scene, solid) result(centre)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid
+      real(dp) :: centre(2)
+
+      select case (solid%shape)
+      case ('rectangle')
+         centre = (solid%lower + solid%upper)/2
+      case ('disc')
+         centre = solid%centre
+      case default
+         centre = polygon_centroid(shape_of(scene, solid))
+      end select
+   end function shape_centroid
+
+   !> Largest distance of a solid's points from its pivot [m].
+   pure real(dp) function solid_radius(scene, solid) result(radius)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid
+      real(dp), allocatable :: vertices(:, :)
+      integer :: k
+
+      vertices = shape_of(scene, solid)
+      radius = 0
+      do k = 1, size(vertices, 2)
+         radius = max(radius, norm2(vertices(:, k) - solid%pivot))
+      end do
+   end function solid_radius
+
+   ! The vertices of a solid, not turned.
+   pure function shape_of(scene, solid) result(vertices)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid
+      real(dp), allocatable :: vertices(:, :)   ! (2, n) [m]
+      real(dp) :: corners
+      integer :: n
+
+      select case (solid%shape)
+      case ('rectangle')
+         allocate (vertices(2, 4))
+         vertices(1, :) = [solid%lower(1), solid%upper(1), solid%upper(1), solid%lower(1)]
+         vertices(2, :) = [solid%lower(2), solid%lower(2), solid%upper(2), solid%upper(2)]
+      case ('disc')
+         corners = min(real(corners_range(2), dp), per_spacing*2*pi*solid%radius/scene%spacing())
+         n = max(corners_range(1), ceiling(corners))
+         allocate (vertices(2, n))
+         vertices(:, :) = regular_polygon(solid%centre, solid%radius, n)
+      case default
+         n = solid%vertices%n()/2
+         allocate (vertices(2, n))
+         vertices(:, :) = reshape(solid%vertices%values, [2, n])
+      end select
+   end function shape_of
+
+end module solid_outlines
