@@ -1,6 +1,6 @@
 !> A watch on the energy balance: a flow that makes energy out of nothing, or loses it, is no flow any more.
 module balance_watch
-   use budget, only: imbalance, works_t
+   use budget, only: imbalance, works_of
    use errors, only: exit_numerics, failure, text_of_largest
    use kinds, only: dp
    use model, only: model_t
@@ -31,8 +31,7 @@ contains
 
       if (.not. limit > 0 .or. mod(state%step%step, balance_interval) /= 0) return
       associate (step => state%step, p => state%p)
-         share = imbalance(state%recorder%budget, model, p, works_t(step%work_alpha, step%work_delta, step%work_walls, &
-                                                                    step%work_force))
+         share = imbalance(state%recorder%budget, model, p, works_of(step))
          if (share <= limit) return   ! NaN is beyond it
          associate (own => p%id(:p%n_own) > 0, base => p%base)
             fastest = ''

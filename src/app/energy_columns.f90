@@ -54,6 +54,9 @@ contains
          if (has%diffusion) call row%add('Q_delta', energy, b%q_delta)
          if (has%walls) call row%add('W_s', energy, b%w_s)
          if (has%force) call row%add('W_f', energy, b%w_f)
+         if (has%solids) call row%add('W_solid', energy, b%w_solid)
+         if (has%solids) call row%add('W_stat', energy, b%w_stat)
+         if (has%solids) call row%add('W_pen', energy, b%w_pen)
       end associate
    end subroutine add_energies
 
@@ -71,6 +74,9 @@ contains
          if (has%diffusion) call row%add('Q_delta/dE', share, b%q_delta/de)
          if (has%walls) call row%add('W_s/dE', share, b%w_s/de)
          if (has%force) call row%add('W_f/dE', share, b%w_f/de)
+         if (has%solids) call row%add('W_solid/dE', share, b%w_solid/de)
+         if (has%solids) call row%add('W_stat/dE', share, b%w_stat/de)
+         if (has%solids) call row%add('W_pen/dE', share, b%w_pen/de)
          call row%add('balance_error/dE', share, b%balance_error)
       end associate
    end subroutine add_shares

@@ -1,7 +1,7 @@
 !> Measures and writes what is due: energies, probes, errors and snapshots.
 module recorder
    use archive, only: archive_t
-   use budget, only: add_rotation, budget_t, start_budget, update_budget, works_t
+   use budget, only: add_rotation, budget_t, start_budget, update_budget, works_of
    use build_info, only: git_id, version
    use cadence, only: cadence_t
    use columns, only: columns_t
@@ -247,8 +247,7 @@ contains
       type(gradient_fields_t) :: fields
       type(columns_t) :: row
 
-      call update_budget(self%budget, model, p, run%time, &
-                         works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force))
+      call update_budget(self%budget, model, p, run%time, works_of(run))
       if (.not. self%energy_table%is_open()) return
       if (self%budget%has%rotation .or. self%budget%has%eddies) then
          call measure_gradients(model, p, near, fields)

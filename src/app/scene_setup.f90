@@ -1,6 +1,6 @@
 !> From the input to the model's constants and the particles at t = 0.
 module scene_setup
-   use body_particles, only: count_sites, place_sites, sites_t
+   use body_particles, only: sites_t
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use communication, only: n_processes, this_process
    use equation_of_state, only: excess_density
@@ -11,11 +11,14 @@ module scene_setup
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
    use number_order, only: first_number
+   use open_sites, only: count_open, place_open
    use particles, only: allocate_particles, features_t, particles_t
    use resting_fluid, only: held_force
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
    use solution_register, only: new_solution
+   use solid_outlines, only: solid_motion, solid_outline
+   use solids, only: new_obstacle, obstacle_t, solid_t
    use square_lattice, only: lattice_crowd
    implicit none
    private
@@ -41,6 +44,10 @@ contains
       model%centre = scene%force%centre
       model%viscosity = scene%fluid%viscosity
       model%box = set_up_box(scene)
+      if (allocated(scene%solids)) then
+         allocate (model%solids(size(scene%solids)))
+         model%solids(:) = set_up_solids(scene)
+      end if
       model%dynamic = scene%model%diffusion == 'dynamic'
       if (model%dynamic) then
          call set_up_dynamic(scene, model)
@@ -82,6 +89,34 @@ contains
       end associate
    end function set_up_box
 
+   pure function set_up_solids(scene) result(solids)
+      type(settings_t), intent(in) :: scene
+      type(solid_t) :: solids(size(scene%solids))
+      real(dp), parameter :: degree = acos(-1.0_dp)/180
+      integer :: k
+
+      do k = 1, size(solids)
+         associate (input => scene%solids(k))
+            solids(k)%outline = solid_outline(scene, input)
+            solids(k)%pivot = input%pivot
+            solids(k)%angle = degree*input%angle
+            solids(k)%no_slip = input%surface == 'no_slip'
+            solids(k)%motion = solid_motion(input)
+         end associate
+      end do
+   end function set_up_solids
+
+   ! The solids where they are at t = 0.
+   pure function obstacles_of(scene) result(obstacles)
+      type(settings_t), intent(in) :: scene
+      type(obstacle_t) :: obstacles(size(scene%solids))
+      type(solid_t) :: solids(size(scene%solids))
+      integer :: k
+
+      solids = set_up_solids(scene)
+      obstacles = [(new_obstacle(solids(k), set_up_box(scene)), k=1, size(solids))]
+   end function obstacles_of
+
    ! Of the input's words.
    elemental integer function kind_of_side(word) result(kind)
       character(*), intent(in) :: word
@@ -109,14 +144,14 @@ contains
                             dissipation=any(scene%output%fields(:scene%output%n_fields) == 'dissipation'))
    end function needed_features
 
-   !> Particles of the whole scene.
+   !> Particles of the whole scene: what solids cover has none.
    pure integer function count_particles(scene) result(n)
       type(settings_t), intent(in) :: scene
       integer :: k
 
       n = 0
       do k = 1, size(scene%bodies)
-         n = n + count_sites(scene%bodies(k), scene%spacing())
+         n = n + count_open(scene%bodies(k), scene%spacing(), obstacles_of(scene))
       end do
    end function count_particles
 
@@ -140,8 +175,8 @@ contains
       slot = 0
       before = 0
       do k = 1, size(scene%bodies)
-         associate (body => scene%bodies(k), last => count_sites(scene%bodies(k), model%dx))
-            call place_sites(body, model%dx, sites, max(1, span(1) - before), min(last, span(2) - before))
+         associate (body => scene%bodies(k), last => count_open(scene%bodies(k), model%dx, obstacles_of(scene)))
+            call place_open(body, model%dx, obstacles_of(scene), max(1, span(1) - before), min(last, span(2) - before), sites)
             do i = lbound(sites%x, 1), ubound(sites%x, 1)
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]

@@ -2,7 +2,7 @@
 module simulation
    use balance_watch, only: watch_balance
    use box, only: box_t, is_wall
-   use budget, only: begin_balance_anew, works_t
+   use budget, only: begin_balance_anew, works_of
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
    use communication, only: is_first
@@ -161,8 +161,7 @@ contains
       if (state%step%scattered) call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long')
       if (problem%raised()) return
       associate (step => state%step)
-         if (beginning%forked) call begin_balance_anew(state%recorder%budget, model, state%p, works_t(step%work_alpha, &
-                                                       step%work_delta, step%work_walls, step%work_force))
+         if (beginning%forked) call begin_balance_anew(state%recorder%budget, model, state%p, works_of(step))
       end associate
       call watch_balance(scene%time%balance_limit, model, state, problem)
    end subroutine sort_first

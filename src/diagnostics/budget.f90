@@ -2,7 +2,8 @@
 !!
 !! Source: sec. 5 of the paper. Energies are normalised by Delta E_Mtot, what the fluid can lose until it rests;
 !! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
-!! the uniform force gave.
+!! the uniform force gave, W_solid, W_stat and W_pen what solids gave: by -F.U, by the hydrostatic parts of their ghosts' pressure,
+!! and by putting back particles that got into them.
 module budget
    use archive, only: archive_t
    use box, only: bottom_wall, is_wall, left_wall, right_wall
@@ -13,14 +14,18 @@ module budget
    use model, only: model_t, terms_t
    use particles, only: particles_t
    use rest_state, only: rest_energies
+   use step_state, only: step_t
    implicit none
    private
 
-   public :: budget_t, works_t, start_budget, update_budget, add_rotation, imbalance, begin_balance_anew
+   public :: budget_t, works_t, works_of, start_budget, update_budget, add_rotation, imbalance, begin_balance_anew
 
    !> Energies given to the fluid since t = 0.
    type :: works_t
       real(dp) :: alpha = 0, delta = 0, walls = 0, force = 0
+      real(dp) :: solids = 0, still = 0, pushed = 0   !! W_solid, W_stat, W_pen
+   contains
+      procedure :: turned_over
    end type works_t
 
    !> Where the energy is and has gone. Not kept is what `start_budget` finds again.
@@ -36,6 +41,7 @@ module budget
       real(dp) :: q_alpha = 0, q_delta = 0   !! dissipated, > 0
       real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
       real(dp) :: w_f = 0                    !! work of the uniform force
+      real(dp) :: w_solid = 0, w_stat = 0, w_pen = 0   !! work of solids (not kept: of the steps)
       real(dp) :: q_omega = 0                !! mu int int vorticity**2 dA dt with the real viscosity mu
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
@@ -68,6 +74,23 @@ contains
       call file%keep('rotation_time', self%rotation_time)
       call file%keep('enstrophy', self%enstrophy)
    end subroutine archive_budget
+
+   !> What the steps of a run have given.
+   pure type(works_t) function works_of(run) result(works)
+      type(step_t), intent(in) :: run
+      real(dp) :: solids(2)
+
+      solids = run%work_solids()
+      works = works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force, solids(1), run%work_still, solids(2))
+   end function works_of
+
+   !> Sum of the works' sizes.
+   pure real(dp) function turned_over(self)
+      class(works_t), intent(in) :: self
+
+      turned_over = abs(self%alpha) + abs(self%delta) + abs(self%walls) + abs(self%force) + abs(self%solids) &
+                    + abs(self%still) + abs(self%pushed)
+   end function turned_over
 
    !> Sum of all masses.
    real(dp) function fluid_mass(p) result(mass)
@@ -116,13 +139,14 @@ contains
       end if
    end subroutine start_budget
 
-   ! A floor, and walls or a period from left to right, hold the fluid when nothing but gravity acts.
+   ! A floor, and walls or a period from left to right, hold the fluid when nothing but gravity acts. What is displaced by solids is
+   ! not known here.
    pure logical function can_rest(model)
       type(model_t), intent(in) :: model
 
       can_rest = model%gravity > 0 .and. model%box%has_wall(bottom_wall) &
                  .and. (model%box%is_periodic(1) .or. all(model%box%has_wall([left_wall, right_wall]))) &
-                 .and. .not. (model%central_rate > 0 .or. model%has_force())
+                 .and. .not. (model%central_rate > 0 .or. model%has_force() .or. model%has_solids())
    end function can_rest
 
    ! What the normaliser is where there is no rest state, or too little to lose until it.
@@ -148,8 +172,11 @@ contains
       self%q_delta = 0 - works%delta
       self%w_s = works%walls
       self%w_f = works%force
-      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%w_f &
-                            - self%initial%total())/self%normaliser
+      self%w_solid = works%solids
+      self%w_stat = works%still
+      self%w_pen = works%pushed
+      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%w_f - works%solids - works%still &
+                            - works%pushed - self%initial%total())/self%normaliser
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
@@ -166,10 +193,9 @@ contains
 
       call measure_energies(model, p, now)
       gained = now%total() - self%initial%total()
-      missing = abs(gained - works%alpha - works%delta - works%walls - works%force)
+      missing = abs(gained - works%alpha - works%delta - works%walls - works%force - works%solids - works%still - works%pushed)
       imbalance = 0
-      if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + abs(works%alpha) + abs(works%delta) &
-                                               + abs(works%walls) + abs(works%force))
+      if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + works%turned_over())
    end function imbalance
 
    !> Where another model takes over at the base state whose energies are not the same, the balance counts from here.
@@ -183,7 +209,8 @@ contains
       real(dp) :: missing
 
       call measure_energies(model, p, now)
-      missing = now%total() - self%initial%total() - works%alpha - works%delta - works%walls - works%force
+      missing = now%total() - self%initial%total() - works%alpha - works%delta - works%walls - works%force - works%solids &
+                - works%still - works%pushed
       if (abs(missing) > of_the_steps*self%normaliser) self%initial%elastic = self%initial%elastic + missing
    end subroutine begin_balance_anew
 

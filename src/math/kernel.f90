@@ -9,7 +9,7 @@ module kernel
    implicit none
    private
 
-   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, pair, squared_distance, root
+   public :: kernel_t, new_kernel, kernel_value, kernel_gradient, pair, pair_with_value, squared_distance, root
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -83,6 +83,19 @@ contains
       t = max(0.0_dp, 1 - inverse_support*r)
       weight = t*t*(t*volume)
    end subroutine pair
+
+   !> What sums over solids' ghosts take of a pair: F and W, both without their constant factors.
+   elemental subroutine pair_with_value(dx, dy, inverse_support, weight, value)
+      real(dp), intent(in) :: dx, dy            !! r_j - r_i
+      real(dp), intent(in) :: inverse_support   !! 1/2h
+      real(dp), intent(out) :: weight           !! t**3
+      real(dp), intent(out) :: value            !! t**4 (5 - 4 t), because 1 + 2q = 5 - 4t
+      real(dp) :: t
+
+      t = max(0.0_dp, 1 - inverse_support*sqrt(squared_distance(dx, dy)))
+      weight = t*t*t
+      value = weight*t*(5 - 4*t)
+   end subroutine pair_with_value
 
    !> r**2, not 0 where two particles stand in the same place.
    elemental real(dp) function squared_distance(dx, dy) result(z)

@@ -21,6 +21,7 @@ module box
 
    !> The sides in the order left, right, bottom, top, at one time.
    type :: box_t
+      real(dp) :: time = 0                 !! [s] that it is for
       integer :: kind(4) = open_side
       real(dp) :: at(4) = 0                !! [m] x of left and right, y of bottom and top
       real(dp) :: velocity(2, 4) = 0       !! [m/s] of a wall's surface
@@ -47,6 +48,7 @@ contains
       real(dp), intent(in) :: time   !! [s]
 
       later = self
+      later%time = self%time + time
       later%at = self%at + time*self%normal_velocity()
    end function after
 

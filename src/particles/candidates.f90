@@ -5,12 +5,12 @@
 module candidates
    use kinds, only: dp, i8
    use lanes, only: nl
-   use particles, only: far_away
+   use particles, only: far_away, state_t
    use strips, only: extent_t, group_slots, ranges_t
    implicit none
    private
 
-   public :: candidates_t, list_group, trim_lists
+   public :: candidates_t, group_extent, list_group, trim_lists
 
    integer, parameter, public :: block_slots = 128                 !! slots in a block
    integer, parameter, public :: block_clusters = block_slots/nl   !! clusters in a block
@@ -37,6 +37,24 @@ contains
       bytes = storage_size(self, kind=i8)/8
       if (allocated(self%slot)) bytes = bytes + size(self%slot, kind=i8)*storage_size(self%slot)/8
    end function candidates_bytes
+
+   !> Where a group's particles are predicted, how fast they are, and their slack.
+   pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)
+      integer, intent(in) :: id(:)                !! of slots; 0 for dummies
+      type(state_t), intent(in) :: predicted      !! positions, and slack in place of the volume
+      type(state_t), intent(in) :: base
+      integer, intent(in) :: i0                   !! slot before the group's first
+      integer :: i
+
+      do i = i0 + 1, i0 + group_slots
+         if (id(i) == 0) cycle
+         group%lower = min(group%lower, [predicted%x(i), predicted%y(i)])
+         group%upper = max(group%upper, [predicted%x(i), predicted%y(i)])
+         group%slowest = min(group%slowest, [base%u(i), base%v(i)])
+         group%fastest = max(group%fastest, [base%u(i), base%v(i)])
+      end do
+      group%slack = predicted%volume(i0 + 1)
+   end function group_extent
 
    !> Lists, for each cluster of the block's next group, what of the ranges may come closer than `support` to one of its
    !! particles while all move on for up to `travel`, forwards or backwards, from where they are predicted.

@@ -23,6 +23,7 @@ module images
       integer :: n = 0
       integer :: n_own = 0                 !! slots of own particles,
       integer :: n_held = 0                !! and of copies: all before them
+      integer :: n_before = 0              !! slots before the first source
       integer, allocatable :: source(:)    !! (n) slot of the source
       integer, allocatable :: kind(:)      !! (n) of module image_laws
       type(strips_t) :: strips             !! where to find them
@@ -49,24 +50,32 @@ module images
 
 contains
 
-   !> Finds the particles that have images, and sorts these into strips behind the slots held.
+   !> Finds the particles that have images, and sorts these into strips behind the slots held; of ghosts of solids, whose slots
+   !! come last, behind these.
    !!
    !! Decides on the predicted positions that the strips were sorted by: a particle that may come closer than `reach` to a side
    !! within `travel` before or after that time gets an image.
-   subroutine list_images(self, box, p, tau, travel, reach)
+   subroutine list_images(self, box, p, tau, travel, reach, before)
       type(images_t), intent(inout) :: self
       type(box_t), intent(in) :: box          !! at the predicted time
       type(particles_t), intent(inout) :: p   !! n_slots is set
       real(dp), intent(in) :: tau             !! time that positions are predicted ahead by
       real(dp), intent(in) :: travel          !! time
       real(dp), intent(in) :: reach(4)        !! of each side
+      integer, intent(in), optional :: before !! slots before those of ghosts
       integer, allocatable :: begin(:)        ! images before those of a chunk
       integer :: b, i, k, n, n_chunks
 
       self%n = 0
       self%n_own = p%n_own
       self%n_held = p%n_held
-      n_chunks = (p%n_held + chunk - 1)/chunk
+      self%n_before = 0
+      if (present(before)) then
+         self%n_own = p%n_slots
+         self%n_held = p%n_slots
+         self%n_before = before
+      end if
+      n_chunks = (self%n_held - self%n_before + chunk - 1)/chunk
       if (any(box%kind /= open_side)) then
          allocate (begin(n_chunks + 1), source=0)
          !$omp parallel do default(none) shared(self, box, p, tau, travel, reach, n_chunks, begin) schedule(static)
@@ -81,7 +90,7 @@ contains
       end if
       call make_room(self, self%n)
       n = self%n
-      p%n_slots = p%n_held + n
+      p%n_slots = self%n_held + n
       call reserve_slots(p, p%n_slots + group_slots)   ! module candidates looks at whole groups
       if (n == 0) then
          self%strips%n = 0
@@ -93,7 +102,7 @@ contains
          call look_at(self, box, p, tau, travel, reach, b, .true., k)
       end do
       !$omp end parallel do
-      call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), p%n_held + 1, .false.)
+      call sort_into_strips(self%strips, n, self%number(1:n), self%x(1:n), self%y(1:n), self%n_held + 1, .false.)
       if (self%strips%n < 0) return   ! too long, as the fluid itself can be
       !$omp parallel do default(none) shared(self, n) private(i)
       do k = 1, n
@@ -122,7 +131,7 @@ contains
       normal = box%normal_velocity()
       least = merge(-huge(reach), reach, box%kind == open_side)
       near(0) = .true.
-      do i = (b - 1)*chunk + 1, min(b*chunk, p%n_held)
+      do i = self%n_before + (b - 1)*chunk + 1, min(self%n_before + b*chunk, self%n_held)
          if (p%id(i) == 0) cycle
          velocity = [p%base%u(i), p%base%v(i)]
          place = [p%base%x(i), p%base%y(i)] + tau*velocity

@@ -5,7 +5,7 @@
 !! lists are to hold, and allows for accelerations by a slack of each block; the time step verifies both, and has lists made again
 !! in time.
 module neighbours
-   use candidates, only: block_groups, candidates_t, list_group, trim_lists
+   use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
    use communication, only: any_process, largest_of_all, n_processes
    use division, only: division_t
    use halo, only: find_halo
@@ -17,6 +17,8 @@ module neighbours
    use kinds, only: dp, i8, sp
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
+   use solid_ghosts, only: list_near_solids, make_ghosts, solid_ghosts_t, sort_ghosts
+   use solids, only: solid_t
    use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t, too_scattered
    implicit none
@@ -59,6 +61,7 @@ module neighbours
       type(division_t) :: division           !! among the processes
       type(strips_t) :: strips               !! of the slots held
       type(images_t) :: images               !! behind the own slots
+      type(solid_ghosts_t) :: ghosts         !! of solids, and what is near them
       type(candidates_t), allocatable :: blocks(:)   !! (n_blocks) slots that each cluster can reach
       type(margin_t), allocatable :: margins(:)      !! (n_blocks)
    contains
@@ -73,7 +76,7 @@ contains
    pure integer(i8) function neighbours_bytes(self) result(bytes)
       class(neighbours_t), intent(in) :: self
 
-      bytes = self%strips%bytes() + self%images%bytes()
+      bytes = self%strips%bytes() + self%images%bytes() + self%ghosts%bytes()
       if (allocated(self%blocks)) bytes = bytes + sum(self%blocks%bytes()) &
          + size(self%margins, kind=i8)*storage_size(self%margins)/8
    end function neighbours_bytes
@@ -100,7 +103,7 @@ contains
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
    !! The images are filled. The state of `next` is not changed.
-   subroutine sort_particles(self, p, kernel, box, dx, span, scattered)
+   subroutine sort_particles(self, p, kernel, box, dx, span, scattered, solids)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
       type(kernel_t), intent(in) :: kernel
@@ -108,11 +111,14 @@ contains
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: span         !! time that the steps to come are expected to take
       logical, intent(out) :: scattered    !! some particle is too far away to go on
+      type(solid_t), intent(in), optional :: solids(:)   !! none if left out
       integer, allocatable :: number(:)
       integer :: n_points
       type(extent_t) :: extent
       real(dp) :: outwards(4), reach(4)
 
+      if (present(solids) .and. self%sorts == 0) &
+         call make_ghosts(self%ghosts, solids, box%after(-box%time), dx, kernel%support)
       self%tau = span/2
       self%jumped = .false.
       self%image_slack = max(self%slack, image_slack*kernel%support)
@@ -130,9 +136,10 @@ contains
          extent = self%extent
          extent%lower(1) = extent%lower(1) + self%tau*extent%slowest(1)
          extent%upper(1) = extent%upper(1) + self%tau*extent%fastest(1)
-         ! A gauge looks half a spacing beside what it measures.
-         call migrate(self%division, self%sorts, self%strips, p, box, extent, kernel%support + 2*self%image_slack + dx/2, &
-                      self%image_travel, n_points, number, scattered)
+         ! A gauge looks half a spacing beside what it measures; a solid's ghost has its density of what is near it.
+         call migrate(self%division, self%sorts, self%strips, p, box, extent, &
+                      kernel%support*merge(2, 1, self%ghosts%exist()) + 2*self%image_slack + dx/2, self%image_travel, &
+                      n_points, number, scattered)
          if (.not. scattered) then
             call predict(self%tau, p%n_own + 1, n_points, p)
             call sort_into_strips(self%strips, n_points, number, p%stage(1)%x(1:n_points), p%stage(1)%y(1:n_points), 1, .true.)
@@ -168,6 +175,8 @@ contains
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
+      if (self%ghosts%exist()) call sort_ghosts(self%ghosts, solids, box, p, [self%strips%width, dx, kernel%support], &
+                                                [self%tau, self%image_travel], self%image_slack)
    end subroutine sort_particles
 
    ! Of the state `next` of all processes, in x.
@@ -391,6 +400,8 @@ contains
       end do
       !$omp end do
       !$omp end parallel
+      if (self%ghosts%exist()) call list_near_solids(self%ghosts, self%blocks(:self%n_blocks), self%strips, self%images%strips, p, &
+                                                     predicted, [self%tau - self%age, travel], kernel%support)
       call swap_states(predicted, p%stage(1))
       call find_inner(self, p%n_own, p%n_held)
    end subroutine list_neighbours
@@ -412,6 +423,8 @@ contains
                   if (i > n_held) i = self%images%source(i - n_held)
                   outer(b) = outer(b) .or. i > n_own
                end do
+               ! Ghosts of solids have their density of copies.
+               if (self%ghosts%exist()) outer(b) = outer(b) .or. self%ghosts%near(b)%first(block%n_clusters + 1) > 1
             end associate
          end do
          !$omp end parallel do
@@ -446,23 +459,6 @@ contains
       end do
       call trim_lists(self%blocks(b))
    end subroutine list_block
-
-   ! Where a group's particles are predicted, how fast they are, and their slack.
-   pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)
-      integer, intent(in) :: id(:)
-      type(state_t), intent(in) :: predicted, base
-      integer, intent(in) :: i0
-      integer :: i
-
-      do i = i0 + 1, i0 + group_slots
-         if (id(i) == 0) cycle
-         group%lower = min(group%lower, [predicted%x(i), predicted%y(i)])
-         group%upper = max(group%upper, [predicted%x(i), predicted%y(i)])
-         group%slowest = min(group%slowest, [base%u(i), base%v(i)])
-         group%fastest = max(group%fastest, [base%u(i), base%v(i)])
-      end do
-      group%slack = predicted%volume(i0 + 1)
-   end function group_extent
 
    !> Slots, own and images, that may be closer than `reach` to a point in the base state.
    pure subroutine ranges_around(self, x, y, reach, ranges)

@@ -5,6 +5,7 @@ module model
    use kernel, only: kernel_t
    use kinds, only: dp
    use linear_stability, only: stability_t
+   use solids, only: solid_t
    implicit none
    private
 
@@ -17,6 +18,8 @@ module model
       logical :: central = .false.       !! a central force
       logical :: potential = .false.     !! gravity or a central force; E_P
       logical :: walls = .false.         !! W_s
+      logical :: solids = .false.        !! bodies in the fluid; W_solid, W_stat, W_pen
+      logical :: sticky_solids = .false. !! some that the fluid sticks to
       logical :: no_slip = .false.       !! walls that the fluid sticks to
       logical :: periodic = .false.      !! sides
       logical :: viscosity = .false.     !! Q_alpha
@@ -29,6 +32,7 @@ module model
    type :: model_t
       type(kernel_t) :: kernel        !! W and its gradient
       type(box_t) :: box              !! its sides at time 0
+      type(solid_t), allocatable :: solids(:)   !! as drawn
       real(dp) :: dx = 0              !! [m] initial particle spacing
       real(dp) :: c0 = 0              !! [m/s] sound speed
       real(dp) :: rho0 = 0            !! [kg/m3] density at p = 0
@@ -54,8 +58,10 @@ module model
       procedure :: advective_limit
       procedure :: longest_step
       procedure :: terms
+      procedure :: has_solids
       procedure :: has_force
       procedure :: force_at
+      procedure :: energy_at
    end type model_t
 
 contains
@@ -97,6 +103,8 @@ contains
       terms%central = self%central_rate > 0
       terms%potential = terms%gravity .or. terms%central
       terms%walls = any(is_wall(self%box%kind))
+      terms%solids = self%has_solids()
+      if (terms%solids) terms%sticky_solids = any(self%solids%no_slip)
       terms%no_slip = any(self%box%kind == no_slip_wall)
       terms%periodic = any(self%box%kind == periodic_side)
       terms%viscosity = self%alpha > 0 .or. self%dynamic
@@ -104,6 +112,14 @@ contains
       terms%eddies = self%dynamic
       terms%rotation = self%viscosity > 0
    end function terms
+
+   !> Whether there are bodies in the fluid.
+   pure logical function has_solids(self)
+      class(model_t), intent(in) :: self
+
+      has_solids = .false.
+      if (allocated(self%solids)) has_solids = size(self%solids) > 0
+   end function has_solids
 
    !> Whether a uniform force acts besides gravity.
    pure logical function has_force(self)
@@ -121,5 +137,14 @@ contains
       force = self%acceleration - [0.0_dp, self%gravity]
       if (self%central_rate > 0) force = force - self%central_rate**2*(place - self%centre)
    end function force_at
+
+   !> Kinetic energy of a particle at a place, and its potential energy in gravity and the central force [J/kg].
+   pure real(dp) function energy_at(self, place, velocity)
+      class(model_t), intent(in) :: self
+      real(dp), intent(in) :: place(2), velocity(2)   !! [m], [m/s]
+
+      energy_at = (velocity(1)**2 + velocity(2)**2)/2 + self%gravity*place(2)
+      if (self%central_rate > 0) energy_at = energy_at + self%central_rate**2*sum((place - self%centre)**2)/2
+   end function energy_at
 
 end module model

@@ -2,6 +2,7 @@
 !!
 !! Source: eqs. 5-8; the dynamic model's coefficients are eqs. 19-26. The sums over neighbours are in src/physics.
 module frozen_terms
+   use blocks, only: block_t
    use candidates, only: block_slots
    use diffusion, only: begin_density_diffusion, freeze_density_diffusion, freeze_viscosity
    use diffusion_sums, only: sum_diffusion
@@ -17,7 +18,7 @@ module frozen_terms
    use no_slip_sums, only: sum_jump_gradient
    use particles, only: features_t, particles_t
    use renormalisation, only: freeze_gradient, matrices_t
-   use runge_kutta, only: block_t
+   use solid_terms, only: add_solid_friction, add_solids
    implicit none
    private
 
@@ -59,6 +60,7 @@ contains
       i0 = near%blocks(b)%before
       n = nl*near%blocks(b)%n_clusters
       call sum_first(first_pass(model, p%features), model%kernel, near%blocks(b), p, near%images%source, i0, sums)
+      if (near%ghosts%exist()) call add_solids(model, near, p%base, b, sums, block%solid_power)
       call flow_rates(model, p%base, i0, n, sums, rates)
       p%next%u(i0 + 1:i0 + n) = rates%u(:n)
       p%next%v(i0 + 1:i0 + n) = rates%v(:n)
@@ -123,6 +125,7 @@ contains
       end if
       if (p%features%no_slip .and. p%features%viscosity) &
          call add_friction(model, near%blocks(b), p, i0, n, block%wall_power)
+      if (near%ghosts%exist() .and. p%features%viscosity) call add_solid_friction(model, near, p, b)
    end subroutine complete_frozen_terms
 
 end module frozen_terms

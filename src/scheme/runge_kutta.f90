@@ -2,19 +2,21 @@
 !!
 !! Source: sec. 2 of the paper; the works are summed with the stage states and the weights of the scheme (docs/equations.md).
 module runge_kutta
-   use box, only: bottom_wall, box_t, find_bounds, left_wall, reflect, right_wall, top_wall, wrap
+   use box, only: box_t
+   use blocks, only: block_t, moment_t
    use candidates, only: block_groups, block_slots
+   use crossings, only: cross_sides, leave_solids
    use equation_of_state, only: specific_pressure
    use flow, only: rates_t
    use integrators, only: most_stages
    use kinds, only: dp, sp
    use model, only: model_t
    use particles, only: particles_t, state_t
-   use strips, only: extent_t, group_slots
+   use strips, only: group_slots
    implicit none
    private
 
-   public :: block_t, moment_t, update_block, watch_changes
+   public :: update_block, watch_changes
 
    ! The state of stage 1 is `base`; those of stages 2 and 3 are in p%stage(1) and (2). That of stage 4 is formed in `next` and
    ! changes places with stage 3's before it is used, so that the end of the step can always be written to `next`, block by block.
@@ -22,38 +24,10 @@ module runge_kutta
 
    real(dp), parameter, public :: fastest = 10   !! in c0; a particle that is faster has left the range
 
-   !> A stage of a step.
-   type :: moment_t
-      integer :: stage = 1   !! of the model's integrator
-      real(dp) :: dt = 0     !! [s] length of the step
-      type(box_t) :: box     !! at the stage's time
-   end type moment_t
-
    !> A block's part of a stage's state.
    type :: stage_t
       real(dp), dimension(block_slots) :: x, y, u, v, s, volume, m
    end type stage_t
-
-   !> Extremes of a block, and sums over each of its groups: a group lies in one strip, and no sum depends on where blocks end.
-   type :: block_t
-      real(dp) :: work(block_groups, 4) = 0       !! [J/m] alpha, delta, walls, uniform force
-      real(dp) :: wall_power(block_groups) = 0    !! [W/m] of no-slip walls that move
-      real(dp) :: speed_2 = 0        !! max |u|**2
-      real(dp) :: pressure = 0       !! max p/rho
-      real(dp) :: largest_s = 0
-      type(extent_t) :: extent       !! in x, and of velocities
-      real(dp) :: largest_pi = 0
-      real(dp) :: largest_alpha = 0  !! alpha_i of the dynamic model
-      real(dp) :: largest_delta = 0  !! delta_i, or delta, times crowding
-      integer :: crossings = 0
-      integer :: singular = 0
-      integer :: lost_slot = 0
-      real(dp) :: behind = 0         !! max |u - u when sorted| of the base state,
-      real(dp) :: ahead = 0          !! and some time later, as its first sums have it
-      real(dp) :: change(most_stages) = 0   !! of each stage max |u - u when sorted|
-      real(dp) :: jump = 0           !! largest way that a wall has put a particle back
-      logical :: wrapped = .false.   !! a particle went through a periodic side
-   end type block_t
 
 contains
 
@@ -78,8 +52,10 @@ contains
          ahead = scheme%ahead(stage)*moment%dt
          sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
          call add_terms(model, p, i0, n, weight, now, rates, sums%work)
+         if (model%has_solids()) sums%solid_work = sums%solid_work + weight*sums%solid_power
          if (stage == scheme%stages) then
             call end_step(scheme%share, weight, p, i0, n, now, rates)
+            if (allocated(moment%obstacles)) call leave_solids(model, moment%obstacles, p, i0, n, sums)
             call finish_block(model, moment%box%after((1 - scheme%time_of(stage))*moment%dt), p, i0, n, sums)
          else if (stage < 3) then
             call go_on(p%base, i0, n, ahead, model%rho0, now, rates, p%stage(stage))
@@ -418,44 +394,5 @@ contains
 
       within_range = speed_2 < (fastest*c0)**2 .and. s > -0.9_dp*rho0 .and. s < 4*rho0
    end function within_range
-
-   ! Puts back what left the box.
-   pure subroutine cross_sides(model, box, p, i0, n, sums)
-      type(model_t), intent(in) :: model
-      type(box_t), intent(in) :: box
-      type(particles_t), intent(inout) :: p
-      integer, intent(in) :: i0, n
-      type(block_t), intent(inout) :: sums
-      real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2)
-      logical :: crossed
-      integer :: i, g
-
-      call find_bounds(box, lower, upper)
-      do i = i0 + 1, i0 + n
-         if (.not. (p%next%x(i) < lower(1) .or. p%next%x(i) > upper(1) .or. p%next%y(i) < lower(2) &
-                    .or. p%next%y(i) > upper(2))) cycle
-         if (p%id(i) == 0) cycle
-         before = [p%next%x(i), p%next%y(i)]
-         place = before
-         velocity = [p%next%u(i), p%next%v(i)]
-         at_wall = min(max(before, box%at([left_wall, bottom_wall])), box%at([right_wall, top_wall]))
-         call reflect(box, model%force_at(at_wall), place, velocity, crossed)
-         if (crossed) then
-            sums%crossings = sums%crossings + 1
-            sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
-            ! What the uniform force gave is not in the positions, as gravity's energy is.
-            g = 1 + (i - i0 - 1)/group_slots
-            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration, place - before)
-         end if
-         if (any(box%is_periodic([1, 2]))) then
-            call wrap(box, place)
-            sums%wrapped = .true.
-         end if
-         p%next%x(i) = place(1)
-         p%next%y(i) = place(2)
-         p%next%u(i) = velocity(1)
-         p%next%v(i) = velocity(2)
-      end do
-   end subroutine cross_sides
 
 end module runge_kutta

@@ -1,5 +1,6 @@
 !> What the processes learn of each other in a step, in two reductions: what the first sums limit, and what all stages have come to.
 module step_outcome
+   use blocks, only: block_t
    use communication, only: combine, largest_of_all
    use exact_sum, only: exact_sum_t, exact_sums, integers_of, take_integers
    use integrators, only: most_stages
@@ -7,18 +8,20 @@ module step_outcome
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: neighbours_t
-   use runge_kutta, only: block_t
    use search_margins, only: lists_hold, overreach
+   use step_state, only: n_of_solid, step_t, take_extremes
    use strips, only: extent_t, group_slots
    implicit none
    private
 
-   public :: outcome_t, look_ahead, add_up
+   public :: outcome_t, look_ahead, add_up, collect
 
    !> What the stages of a step have come to, in all processes.
    type :: outcome_t
       real(dp) :: work(4) = 0                  !! [J/m] as in block_t
       real(dp) :: moving_walls = 0             !! [W/m] of no-slip walls that move
+      real(dp) :: solid_work = 0               !! [J/m] that the fluid got by the pressure of solids
+      real(dp), allocatable :: solids(:, :)    !! (n_of_solid, solids) as in step_t
       integer(i8) :: crossings = 0, singular = 0
       real(dp) :: speed_2 = 0, pressure = 0, largest_s = 0   !! as in block_t
       real(dp) :: limit = 0                    !! [s] step that would have been stable in each stage
@@ -70,25 +73,27 @@ contains
       type(block_t), intent(in) :: blocks(:)
       type(outcome_t), intent(inout) :: all   !! with the own overreach
       logical, intent(inout) :: notes(:)
-      integer, parameter :: n_sums = 9
+      integer, parameter :: n_sums = 10
       real(dp), allocatable :: table(:, :)    ! sums of each strip
       real(dp), allocatable :: largest(:)
-      type(exact_sum_t) :: sums(n_sums)
+      type(exact_sum_t), allocatable :: sums(:)
       integer(i8), allocatable :: numbers(:)
-      real(dp) :: totals(n_sums)
+      real(dp), allocatable :: totals(:)
       integer :: k
 
       allocate (table(n_sums, size(near%first_block) - 1))
       !$omp parallel do default(none) shared(near, blocks, table) schedule(dynamic, max(1, size(near%first_block)/256))
       do k = 1, size(table, 2)
-         table(:5, k) = strip_powers(near, k, blocks)
+         table(:6, k) = strip_powers(near, k, blocks)
          associate (first => near%first_block(k), last => near%first_block(k + 1) - 1)
-            table(6:, k) = [real(sum(blocks(first:last)%crossings), dp), real(sum(blocks(first:last)%singular), dp), &
+            table(7:, k) = [real(sum(blocks(first:last)%crossings), dp), real(sum(blocks(first:last)%singular), dp), &
                             sum(near%margins(first:last)%next_acceleration), real(last - first + 1, dp)]
          end associate
       end do
       !$omp end parallel do
-      sums = exact_sums(table)
+      allocate (sums(n_sums + size_of_solids(model)))
+      sums(:n_sums) = exact_sums(table)
+      if (model%has_solids()) sums(n_sums + 1:) = reshape(solid_sums(model, near, blocks), [size_of_solids(model)])
       numbers = integers_of(sums)
       associate (extent => blocks%extent)
          largest = [max(0.0_dp, [maxval(blocks%speed_2), maxval(blocks%pressure), maxval(blocks%largest_s), for_step(blocks), &
@@ -99,14 +104,17 @@ contains
       end associate
       call combine(numbers, largest)
       call take_integers(numbers, sums)
-      do k = 1, n_sums
+      allocate (totals(size(sums)))
+      do k = 1, size(sums)
          totals(k) = sums(k)%value()
       end do
       all%work = totals(:4)
       all%moving_walls = totals(5)
-      all%crossings = nint(totals(6), i8)
-      all%singular = nint(totals(7), i8)
-      if (totals(9) > 0) all%mean_acceleration = totals(8)/totals(9)
+      all%solid_work = totals(6)
+      all%crossings = nint(totals(7), i8)
+      all%singular = nint(totals(8), i8)
+      if (totals(10) > 0) all%mean_acceleration = totals(9)/totals(10)
+      if (model%has_solids()) all%solids = reshape(totals(n_sums + 1:), [n_of_solid, size(model%solids)])
       all%speed_2 = largest(1)
       all%pressure = largest(2)
       all%largest_s = largest(3)
@@ -141,20 +149,85 @@ contains
       one_if = merge(1.0_dp, 0.0_dp, statement)
    end function one_if
 
+   ! How many sums there are of solids.
+   pure integer function size_of_solids(model) result(n)
+      type(model_t), intent(in) :: model
+
+      n = 0
+      if (model%has_solids()) n = n_of_solid*size(model%solids)
+   end function size_of_solids
+
+   ! What the own ghosts of each solid gave, and what its own particles that were put back did.
+   function solid_sums(model, near, blocks) result(sums)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      type(block_t), intent(in) :: blocks(:)
+      type(exact_sum_t) :: sums(n_of_solid, size(model%solids))
+      integer :: b, k, m, solid
+
+      associate (ghosts => near%ghosts)
+         do k = 1, ghosts%n_slots
+            solid = ghosts%solid_of(k)
+            if (solid == 0) cycle
+            if (.not. near%computes(ghosts%x(k))) cycle
+            call sums(1, solid)%add(ghosts%work(k))
+            call sums(2, solid)%add(ghosts%rubbed(k))
+         end do
+      end associate
+      do b = 1, size(blocks)
+         if (.not. allocated(blocks(b)%struck)) cycle
+         do solid = 1, size(model%solids)
+            do m = 1, 4
+               call sums(2 + m, solid)%add(blocks(b)%struck(m, solid))
+            end do
+         end do
+      end do
+   end function solid_sums
+
    ! The works and the wall power of a strip, group by group.
    pure function strip_powers(near, strip, blocks) result(powers)
       type(neighbours_t), intent(in) :: near
       integer, intent(in) :: strip   !! counted from the first own one
       type(block_t), intent(in) :: blocks(:)
-      real(dp) :: powers(5)
+      real(dp) :: powers(6)
       integer :: b, g
 
       powers = 0
       do b = near%first_block(strip), near%first_block(strip + 1) - 1
          do g = 1, nl*near%blocks(b)%n_clusters/group_slots
-            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g)]
+            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g), blocks(b)%solid_work(g)]
          end do
       end do
    end function strip_powers
+
+   !> Takes over what a step has come to.
+   subroutine collect(model, near, run, last_time, all, blocks)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      real(dp), intent(in) :: last_time
+      type(outcome_t), intent(in) :: all
+      type(block_t), intent(in) :: blocks(:)
+      real(dp) :: moving_walls, friction   ! work of walls that move along themselves, of solids by friction
+
+      if (run%dt < all%advective_limit .and. run%time + run%dt < last_time) run%limited = run%limited + 1
+      moving_walls = run%dt*all%moving_walls
+      friction = 0
+      if (model%has_solids()) friction = sum(all%solids(2, :))
+      run%work_alpha = run%work_alpha + all%work(1) - moving_walls - friction
+      run%work_delta = run%work_delta + all%work(2)
+      run%work_walls = run%work_walls + all%work(3) + moving_walls - all%solid_work
+      if (model%has_solids()) call run%take_solids(all%solid_work, all%solids)
+      run%work_force = run%work_force + all%work(4)
+      run%crossings = run%crossings + all%crossings
+      run%singular = run%singular + all%singular
+      call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)
+      run%lost_slot = max(0, maxval(blocks%lost_slot))
+      run%lost = all%lost
+      near%lasts = all%lasts
+      near%mean_acceleration = all%mean_acceleration
+      near%largest_acceleration = all%largest_acceleration
+      near%extent = all%extent
+   end subroutine collect
 
 end module step_outcome

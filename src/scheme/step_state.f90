@@ -11,6 +11,8 @@ module step_state
 
    public :: step_t, start_extremes, take_extremes
 
+   integer, parameter, public :: n_of_solid = 6   !! sums of each solid
+
    !> What steps leave behind: time, counts, sums and extremes.
    type :: step_t
       real(dp) :: time = 0
@@ -25,6 +27,9 @@ module step_state
       real(dp) :: work_delta = 0            !! energy given by density diffusion
       real(dp) :: work_walls = 0            !! energy given by the walls' images, and by moving no-slip walls
       real(dp) :: work_force = 0            !! energy given by the uniform force
+      real(dp) :: work_still = 0            !! energy given by solids besides -F.U: by the hydrostatic parts of their pressure
+      real(dp), allocatable :: solids(:, :) !! (n_of_solid, solids) energy given by each by -F.U, of it friction's; impulse (2) by
+                                            !! particles that were put back, its moment, energy given to them
       real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
       real(dp) :: speed = 0                 !! max |u| of the base state
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
@@ -34,6 +39,8 @@ module step_state
       integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none (not kept: then all ends)
       logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
    contains
+      procedure :: take_solids
+      procedure :: work_solids
       procedure :: archive => archive_step
    end type step_t
 
@@ -56,12 +63,45 @@ contains
       call file%keep('work_delta', self%work_delta)
       call file%keep('work_walls', self%work_walls)
       call file%keep('work_force', self%work_force)
+      if (allocated(self%solids)) call file%keep('work_still', self%work_still)
+      if (allocated(self%solids)) call archive_solids(self, file)
       call file%keep('mach', self%mach)
       call file%keep('speed', self%speed)
       call file%keep('variation', self%variation)
       call file%keep('largest_mach', self%largest_mach)
       call file%keep('largest_variation', self%largest_variation)
    end subroutine archive_step
+
+   subroutine archive_solids(self, file)
+      class(step_t), intent(inout) :: self
+      class(archive_t), intent(inout) :: file
+      real(dp) :: numbers(size(self%solids))
+
+      numbers = reshape(self%solids, [size(self%solids)])
+      call file%keep('solids', numbers)
+      self%solids = reshape(numbers, shape(self%solids))
+   end subroutine archive_solids
+
+   !> Adds what a step's solids have come to.
+   pure subroutine take_solids(self, given, solids)
+      class(step_t), intent(inout) :: self
+      real(dp), intent(in) :: given          !! [J/m] that the fluid got by their pressure
+      real(dp), intent(in) :: solids(:, :)   !! (n_of_solid, solids) as in step_t
+
+      if (.not. allocated(self%solids)) allocate (self%solids, source=0*solids)
+      self%solids = self%solids + solids
+      ! Friction is no pressure.
+      self%work_still = self%work_still + given - sum(solids(1, :) - solids(2, :))
+   end subroutine take_solids
+
+   !> Energy that solids have given: by -F.U; by putting particles back [J/m].
+   pure function work_solids(self) result(work)
+      class(step_t), intent(in) :: self
+      real(dp) :: work(2)
+
+      work = 0
+      if (allocated(self%solids)) work = [sum(self%solids(1, :)), sum(self%solids(6, :))]
+   end function work_solids
 
    !> Extremes of the state that the run starts with; steps take those of the states they end with.
    subroutine start_extremes(model, p, run)
@@ -70,6 +110,7 @@ contains
       type(step_t), intent(inout) :: run
       real(dp) :: largest(3)   ! |u|**2, p/rho, |rho - rho0|
 
+      if (model%has_solids()) allocate (run%solids(n_of_solid, size(model%solids)), source=0.0_dp)
       associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
          largest = [maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own), &
                     maxval(specific_pressure(model%c0, model%rho0, s), mask=own), maxval(abs(s), mask=own)]

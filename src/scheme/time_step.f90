@@ -4,6 +4,7 @@
 !! with the stage states and the Runge-Kutta weights, so that the budget closes to the order of the scheme
 !! (docs/equations.md).
 module time_step
+   use blocks, only: block_t, moment_t
    use dissipation_sums, only: sum_dissipation
    use flow, only: flow_rates, rates_t
    use flow_sums, only: flow_sums_t, sum_flow
@@ -13,13 +14,15 @@ module time_step
    use images, only: begin_fill, fill_ghosts, fill_slip, finish_fill
    use kinds, only: dp, i8
    use lanes, only: nl
-   use model, only: model_t
+   use model, only: model_t, terms_t
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
-   use runge_kutta, only: block_t, moment_t, stage_state, update_block, watch_changes
+   use runge_kutta, only: stage_state, update_block, watch_changes
+   use solid_terms, only: add_solids, meet_solids, rub_solids, take_solid_work
+   use solids, only: new_obstacle
    use search_margins, only: overreach, plan_t, planned, watch_margins, widen_margins
-   use step_outcome, only: add_up, look_ahead, outcome_t
-   use step_state, only: step_t, take_extremes
+   use step_outcome, only: add_up, collect, look_ahead, outcome_t
+   use step_state, only: step_t
    use timers, only: timers_t, wall_seconds
    implicit none
    private
@@ -46,6 +49,7 @@ contains
       else
          call keep_order(near, p, model%box%after(run%time), run%dt)
          if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
+         call meet_solids(model, model%box%after(run%time), near, p%base)
       end if
       call timers%stop(phase_sort)
    end subroutine refresh
@@ -96,11 +100,13 @@ contains
       near%age = plan%age
       near%slack = plan%slack
       near%slack_time_2 = plan%slack_time_2
-      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, plan%span, run%scattered)
+      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, plan%span, run%scattered, &
+                          model%solids)
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
       call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
+      call meet_solids(model, model%box%after(run%time), near, p%base)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`. With the step's sums goes what processes want each
@@ -152,6 +158,7 @@ contains
          call make_room(model, p, near, run, blocks, enough, all, timers)
          deallocate (blocks)
          if (run%scattered) return
+         call meet_solids(model, model%box%after(run%time), near, p%base)
       end do
       if (present(notes)) notes = told
       call collect(model, near, run, last_time, all, blocks)
@@ -279,10 +286,12 @@ contains
       logical, intent(inout) :: notes(:)
       real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
       type(moment_t) :: moment
-      integer :: stage
+      integer :: k, stage
 
       do stage = 1, model%integrator%stages
          moment = moment_t(stage, run%dt, model%box%after(run%time + model%integrator%time_of(stage)*run%dt))
+         if (stage == model%integrator%stages .and. model%has_solids()) &
+            moment%obstacles = [(new_obstacle(model%solids(k), model%box%after(run%time + run%dt)), k=1, size(model%solids))]
          if (stage == 1) then
             call timers%start(phase_diffusion)
             call first_stage(model, p, near, moment, blocks)
@@ -321,6 +330,14 @@ contains
       !$omp end parallel do
    end subroutine scale_wall_power
 
+   ! Ghosts have their pressure of all fluid near them: they come when copies are there.
+   pure logical function solids_are_due(near, part)
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: part   ! of the blocks, before which this is
+
+      solids_are_due = near%ghosts%exist() .and. part == merge(2, 1, near%images%halo%exists)
+   end function solids_are_due
+
    ! Completes the frozen terms and goes from `base` to the second stage's state.
    subroutine first_stage(model, p, near, moment, blocks)
       type(model_t), intent(in) :: model
@@ -329,15 +346,21 @@ contains
       type(moment_t), intent(in) :: moment
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
+      type(terms_t) :: has
       real(dp) :: started
       integer :: b, i0, k, n, part, span(2)
 
+      has = model%terms()
       call begin_fill(near%images, model%box, p)
       do part = 1, 2
          if (part == 2) then
             started = wall_seconds()
             call finish_fill(near%images, model%box, p)
             near%division%waiting = near%division%waiting + wall_seconds() - started
+         end if
+         if (solids_are_due(near, part)) then
+            if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
+            call take_solid_work(near, p%base, model%integrator%weight(1)*moment%dt, begins=.true.)
          end if
          span = near%part(part)
          started = wall_seconds()
@@ -388,6 +411,10 @@ contains
             call finish_fill(near%images, moment%box, p%stage(now))
             near%division%waiting = near%division%waiting + wall_seconds() - started
          end if
+         if (solids_are_due(near, part)) then
+            call meet_solids(model, moment%box, near, p%stage(now))
+            call take_solid_work(near, p%stage(now), model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
+         end if
          span = near%part(part)
          started = wall_seconds()
          !$omp parallel do default(none) shared(model, p, near, moment, now, blocks, span) &
@@ -398,6 +425,7 @@ contains
             n = nl*near%blocks(b)%n_clusters
             call let_messages_go_on(near%images%halo, k)
             call sum_flow(model%kernel, near%blocks(b), p%stage(now), i0, sums)
+            if (near%ghosts%exist()) call add_solids(model, near, p%stage(now), b, sums, blocks(b)%solid_power)
             call flow_rates(model, p%stage(now), i0, n, sums, rates)
             call update_block(model, p, i0, n, moment, rates, blocks(b))
          end do
@@ -415,18 +443,23 @@ contains
       type(block_t), intent(inout) :: blocks(:)
       type(block_t) :: of_stage(size(blocks))
       type(rates_t) :: rates
+      type(terms_t) :: has
       type(state_t) :: kept                  ! rates of velocity and density: `next` may hold a stage's state
       integer :: b, i0, n, now
 
       now = stage_state(moment%stage)
       allocate (kept%u(p%capacity), kept%v(p%capacity), kept%s(p%capacity))
       call fill_ghosts(near%images, moment%box, p%stage(now))
+      call meet_solids(model, moment%box, near, p%stage(now))
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
       call first_sums(model, p, near, 0.0_dp, of_stage)
       call begin_fill(near%images, model%box, p)
       call finish_fill(near%images, model%box, p)
+      has = model%terms()
+      if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
+      call take_solid_work(near, p%base, model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
       do b = 1, near%n_blocks
          call complete_frozen_terms(model, p, near, b, of_stage(b))
@@ -440,6 +473,7 @@ contains
          blocks(b)%wall_power = blocks(b)%wall_power + model%integrator%weight(moment%stage)*of_stage(b)%wall_power
          blocks(b)%largest_alpha = max(blocks(b)%largest_alpha, of_stage(b)%largest_alpha)
          blocks(b)%largest_delta = max(blocks(b)%largest_delta, of_stage(b)%largest_delta)
+         blocks(b)%solid_power = of_stage(b)%solid_power
          i0 = near%blocks(b)%before
          n = nl*near%blocks(b)%n_clusters
          call take_kept(kept, i0, n, rates)
@@ -447,32 +481,5 @@ contains
       end do
       !$omp end parallel do
    end subroutine whole_stage
-
-   ! Takes over what a step has come to.
-   subroutine collect(model, near, run, last_time, all, blocks)
-      type(model_t), intent(in) :: model
-      type(neighbours_t), intent(inout) :: near
-      type(step_t), intent(inout) :: run
-      real(dp), intent(in) :: last_time
-      type(outcome_t), intent(in) :: all
-      type(block_t), intent(in) :: blocks(:)
-      real(dp) :: moving_walls
-
-      if (run%dt < all%advective_limit .and. run%time + run%dt < last_time) run%limited = run%limited + 1
-      moving_walls = run%dt*all%moving_walls
-      run%work_alpha = run%work_alpha + all%work(1) - moving_walls
-      run%work_delta = run%work_delta + all%work(2)
-      run%work_walls = run%work_walls + all%work(3) + moving_walls
-      run%work_force = run%work_force + all%work(4)
-      run%crossings = run%crossings + all%crossings
-      run%singular = run%singular + all%singular
-      call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)
-      run%lost_slot = max(0, maxval(blocks%lost_slot))
-      run%lost = all%lost
-      near%lasts = all%lasts
-      near%mean_acceleration = all%mean_acceleration
-      near%largest_acceleration = all%largest_acceleration
-      near%extent = all%extent
-   end subroutine collect
 
 end module time_step

@@ -15,7 +15,7 @@ module evaluation
    use neighbours, only: neighbours_t
    use particles, only: particles_t, state_t
    use patches, only: make_common, points_of, points_t
-   use runge_kutta, only: block_t
+   use blocks, only: block_t
    implicit none
    private
 

@@ -1,0 +1,496 @@
+!> Ghosts of solids: points inside of them that stand for their volume in the sums of the fluid near them.
+!!
+!! Source: ours (docs/equations.md, Solid bodies). A ghost is the part of a cell of a lattice of width dx that the solid covers; it
+!! stands at the centroid of that part. Walls of the box cut it off. Ghosts take slots behind the fluid's images, in strips of
+!! their own, and have images like the fluid's. They are in no list of the fluid's own sums.
+module solid_ghosts
+   use box, only: axis_of, box_t, is_wall
+   use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
+   use images, only: fill_ghosts, images_t, list_images
+   use kinds, only: dp, i8
+   use lanes, only: nl
+   use motions, only: move_point, pose_t, turn
+   use particles, only: far_away, particles_t, reserve_slots, state_t
+   use polygons, only: clip_polygon, nearest_edge, polygon_area, polygon_centroid, turned
+   use solids, only: new_obstacle, obstacle_t, reachable_faces, solid_t
+   use strip_extents, only: measure_strips, take_slack
+   use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
+   implicit none
+   private
+
+   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids
+
+   integer, parameter :: most_corners = 12            ! of a cell's part that walls cut at each time anew
+   real(dp), parameter :: least_area = 1.0e-6_dp      ! in dx**2; what is less is left out
+
+   !> As drawn, before the solid's motion.
+   type :: drawn_t
+      integer :: solid = 0              !! number
+      real(dp) :: place(2) = 0          !! [m]
+      real(dp) :: normal(2) = 0         !! of the nearest face, outwards
+      real(dp) :: area = 0              !! [m2]
+      integer :: n_corners = 0          !! 0: no wall ever cuts it
+      real(dp) :: corner(2, most_corners) = 0
+   end type drawn_t
+
+   !> All ghosts, and what is near them.
+   type :: solid_ghosts_t
+      integer :: n = 0                             !! of all solids
+      integer :: before = 0                        !! slots before theirs
+      integer :: n_slots = 0                       !! of theirs, padding included; their images come behind
+      type(drawn_t), allocatable :: drawn(:)       !! (n)
+      real(dp) :: acceleration = 0                 !! [m/s2] none has more
+      real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid
+      type(strips_t) :: strips
+      type(images_t) :: images
+      integer :: n_blocks = 0
+      type(candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
+      type(candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
+      ! By slot, counted from their first:
+      real(dp), allocatable :: pull_x(:), pull_y(:)   !! [m/s2] (n_slots) (A.n) n, A the solid's acceleration there
+      real(dp), allocatable :: exchange(:)         !! (n_slots and images) q_b/S_b without constant factors
+      real(dp), allocatable :: stick(:)            !! (n_slots and images) 1 where the fluid sticks to the solid, else 0
+      real(dp), allocatable :: force(:, :)         !! [N/m] (2, n_slots) of pressure on the ghost's part of the solid
+      real(dp), allocatable :: power(:)            !! [W/m] (n_slots) that this gives to the fluid
+      real(dp), allocatable :: friction(:, :)      !! [N/m] (4, n_slots) force of friction, and the same as its power goes with
+      real(dp), allocatable :: work(:)             !! [J/m] (n_slots) of the step, given to the fluid,
+      real(dp), allocatable :: rubbed(:)           !! [J/m] (n_slots) of it by friction
+      real(dp), allocatable :: x(:)                !! [m] (n_slots) when they were sorted
+   contains
+      procedure :: exist
+      procedure :: solid_of
+      procedure :: bytes => ghosts_bytes
+   end type solid_ghosts_t
+
+contains
+
+   !> Whether the scene has solids.
+   elemental logical function exist(self)
+      class(solid_ghosts_t), intent(in) :: self
+
+      exist = self%n > 0
+   end function exist
+
+   !> The solid of a slot, counted from the first ghost's; 0 for a dummy.
+   pure integer function solid_of(self, k)
+      class(solid_ghosts_t), intent(in) :: self
+      integer, intent(in) :: k
+
+      solid_of = self%strips%point_of(k)
+      if (solid_of > 0) solid_of = self%drawn(solid_of)%solid
+   end function solid_of
+
+   !> Bytes that all arrays take.
+   pure integer(i8) function ghosts_bytes(self) result(bytes)
+      class(solid_ghosts_t), intent(in) :: self
+
+      bytes = 0
+      if (.not. self%exist()) return
+      bytes = self%strips%bytes() + self%images%bytes() + size(self%drawn, kind=i8)*storage_size(self%drawn)/8
+      if (allocated(self%fluid)) bytes = bytes + sum(self%fluid%bytes()) + sum(self%near%bytes())
+   end function ghosts_bytes
+
+   !> The ghosts of all solids, as far as fluid may come near them.
+   subroutine make_ghosts(self, solids, box, dx, support)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(solid_t), intent(in) :: solids(:)
+      type(box_t), intent(in) :: box             !! at time 0
+      real(dp), intent(in) :: dx, support        !! width of cells; of the kernel
+      type(drawn_t), allocatable :: found(:)
+      integer :: k
+
+      allocate (found(64))
+      do k = 1, size(solids)
+         call add_ghosts(solids(k), k, box, dx, support, found, self%n)
+         self%acceleration = max(self%acceleration, solids(k)%motion%largest_acceleration(solids(k)%radius()))
+      end do
+      allocate (self%drawn(self%n))
+      self%drawn(:) = found(:self%n)
+   end subroutine make_ghosts
+
+   ! Cells as wide as is nearest to dx fill the box around a solid, which is turned as the solid was when it was drawn: so they fit
+   ! to a rectangle.
+   subroutine add_ghosts(solid, number, box, dx, support, found, n)
+      type(solid_t), intent(in) :: solid
+      integer, intent(in) :: number
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: dx, support
+      type(drawn_t), allocatable, intent(inout) :: found(:)
+      integer, intent(inout) :: n
+      real(dp) :: upright(2, size(solid%outline, 2)), lower(2), cell(2)
+      real(dp), allocatable :: row(:, :), part(:, :)
+      logical :: is_face(size(solid%outline, 2))
+      type(obstacle_t) :: start
+      integer :: i, j, n_row, n_part, n_cells(2)
+
+      start = new_obstacle(solid, box)
+      is_face = start%is_face
+      if (.not. any(is_face)) return
+      upright = turned(solid%outline, solid%pivot, -solid%angle)
+      lower = minval(upright, 2)
+      n_cells = max(1, nint((maxval(upright, 2) - lower)/dx))
+      cell = (maxval(upright, 2) - lower)/n_cells
+      allocate (row(2, 2*size(upright, 2) + 8), part(2, 2*size(upright, 2) + 8))
+      do j = 1, n_cells(2)
+         n_row = size(upright, 2)
+         row(:, :n_row) = upright
+         call clip_polygon(row, n_row, lower + [0.0_dp, (j - 1)*cell(2)], [0.0_dp, 1.0_dp])
+         call clip_polygon(row, n_row, lower + [0.0_dp, j*cell(2)], [0.0_dp, -1.0_dp])
+         do i = 1, n_cells(1)
+            n_part = n_row
+            part(:, :n_part) = row(:, :n_row)
+            call clip_polygon(part, n_part, lower + [(i - 1)*cell(1), 0.0_dp], [1.0_dp, 0.0_dp])
+            call clip_polygon(part, n_part, lower + [i*cell(1), 0.0_dp], [-1.0_dp, 0.0_dp])
+            if (n_part < 3) cycle
+            part(:, :n_part) = turned(part(:, :n_part), solid%pivot, solid%angle)
+            call add_ghost(solid, number, is_face, box, [dx, support], part, n_part, found, n)
+         end do
+      end do
+   end subroutine add_ghosts
+
+   ! A cell's part, if it is near enough to a face. Where nothing moves, walls cut it once and for all.
+   subroutine add_ghost(solid, number, is_face, box, lengths, part, n_part, found, n)
+      type(solid_t), intent(in) :: solid
+      integer, intent(in) :: number
+      logical, intent(in) :: is_face(:)
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: lengths(2)     ! dx, support
+      real(dp), intent(inout) :: part(:, :)
+      integer, intent(inout) :: n_part
+      type(drawn_t), allocatable, intent(inout) :: found(:)
+      integer, intent(inout) :: n
+      type(drawn_t) :: ghost
+      real(dp) :: foot(2), distance, area
+      integer :: edge
+
+      if (.not. solid%motion%moves()) call cut_at_walls(box, part, n_part)
+      if (n_part < 3) return
+      area = polygon_area(part(:, :n_part))
+      if (area < least_area*lengths(1)**2) return
+      ghost%solid = number
+      ghost%area = area
+      ghost%place = polygon_centroid(part(:, :n_part))
+      call nearest_edge(solid%outline, is_face, ghost%place, edge, distance, foot, ghost%normal)
+      if (distance > lengths(2)) return
+      if (solid%motion%moves() .and. n_part <= most_corners) then
+         ghost%n_corners = n_part
+         ghost%corner(:, :n_part) = part(:, :n_part)
+      end if
+      if (n == size(found)) found = [found, found]
+      n = n + 1
+      found(n) = ghost
+   end subroutine add_ghost
+
+   ! What of a polygon is not beyond a wall.
+   pure subroutine cut_at_walls(box, part, n)
+      type(box_t), intent(in) :: box
+      real(dp), intent(inout) :: part(:, :)
+      integer, intent(inout) :: n
+      real(dp) :: inwards(2)
+      integer :: side
+
+      do side = 1, 4
+         if (.not. is_wall(box%kind(side)) .or. n == 0) cycle
+         inwards = 0
+         inwards(axis_of(side)) = merge(1, -1, mod(side, 2) == 1)
+         call clip_polygon(part, n, spread(box%at(side), 1, 2), inwards)
+      end do
+   end subroutine cut_at_walls
+
+   !> Gives the ghosts slots behind the fluid and its images, in the order of strips, and finds their images.
+   subroutine sort_ghosts(self, solids, box, p, widths, times, slack)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(solid_t), intent(in) :: solids(:)
+      type(box_t), intent(in) :: box             !! at the time of `base`
+      type(particles_t), intent(inout) :: p      !! n_slots counts the fluid and its images; on return the ghosts and theirs too
+      real(dp), intent(in) :: widths(3)          !! of a strip, of a bin, of the kernel
+      real(dp), intent(in) :: times(2)           !! that positions are predicted ahead by, and that lists last before and after then
+      real(dp), intent(in) :: slack              !! that a block may have
+      type(box_t) :: then
+      real(dp) :: place(2, self%n), reach(4)
+      integer :: k
+
+      then = box%after(times(1))
+      call predict_places(self, solids, then, place)
+      self%strips%width = widths(1)
+      self%strips%bin_height = widths(2)
+      self%strips%origin = box%at(1)
+      self%creep = 0
+      do k = 1, size(solids)
+         if (solids(k)%motion%moves()) self%creep = max(self%creep, creep_of(solids(k), box))
+      end do
+      self%before = p%n_slots
+      call sort_into_strips(self%strips, self%n, [(k, k=1, self%n)], place(1, :), place(2, :), self%before + 1, .true.)
+      self%n_slots = self%strips%n_slots
+      p%n_slots = self%before + self%n_slots
+      call reserve_slots(p, p%n_slots + group_slots)
+      p%id(self%before + 1:p%n_slots) = self%strips%point_of(:self%n_slots)
+      call make_room(self)
+      call move_ghosts(self, solids, box, p%base)
+      call measure_strips(self%strips, p%base)
+      self%images%strips%width = widths(1)
+      self%images%strips%bin_height = widths(2)
+      self%images%strips%origin = box%at(1)
+      reach = widths(3) + 2*slack + sum(times)*maxval(abs([self%strips%overall%slowest, self%strips%overall%fastest]))
+      call list_images(self%images, then, p, times(1), times(2), reach, self%before)
+      call fill_ghosts(self%images, box, p%base)
+      call measure_strips(self%images%strips, p%base)
+      call resize(self%exchange, self%n_slots + self%images%n)
+      call resize(self%stick, self%n_slots + self%images%n)
+      do k = 1, self%n_slots
+         self%stick(k) = 0
+         self%x(k) = far_away
+         if (self%solid_of(k) == 0) cycle
+         self%x(k) = place(1, self%strips%point_of(k))
+         self%stick(k) = merge(1.0_dp, 0.0_dp, solids(self%solid_of(k))%no_slip)
+      end do
+      call mirror_field(self, self%stick)
+   end subroutine sort_ghosts
+
+   ! The speed of a solid that reaches beyond a wall; 0 of others.
+   pure real(dp) function creep_of(solid, box)
+      type(solid_t), intent(in) :: solid
+      type(box_t), intent(in) :: box
+      type(obstacle_t) :: now
+      integer :: side
+
+      creep_of = 0
+      now = new_obstacle(solid, box)
+      if (any([(is_beyond(box, now%lower, now%upper, side), side=1, 4)])) creep_of = solid%motion%largest_speed(solid%radius())
+   end function creep_of
+
+   ! Where the ghosts are at the box's time.
+   subroutine predict_places(self, solids, box, place)
+      type(solid_ghosts_t), intent(in) :: self
+      type(solid_t), intent(in) :: solids(:)
+      type(box_t), intent(in) :: box
+      real(dp), intent(out) :: place(2, self%n)
+      type(pose_t) :: pose(size(solids))
+      real(dp) :: velocity(2), acceleration(2)
+      integer :: k
+
+      do k = 1, size(solids)
+         pose(k) = solids(k)%motion%at(box%time)
+      end do
+      do k = 1, self%n
+         associate (ghost => self%drawn(k))
+            call move_point(pose(ghost%solid), solids(ghost%solid)%pivot, ghost%place, place(:, k), velocity, acceleration)
+         end associate
+      end do
+   end subroutine predict_places
+
+   ! Arrays by slot.
+   subroutine make_room(self)
+      type(solid_ghosts_t), intent(inout) :: self
+
+      if (allocated(self%power)) then
+         if (size(self%power) == self%n_slots) return
+         deallocate (self%pull_x, self%pull_y, self%power, self%work, self%rubbed, self%x, self%force, self%friction)
+      end if
+      associate (n => self%n_slots)
+         allocate (self%pull_x(n), self%pull_y(n), self%power(n), self%work(n), self%rubbed(n), self%x(n), self%force(2, n), &
+                   self%friction(4, n), source=0.0_dp)
+      end associate
+   end subroutine make_room
+
+   subroutine resize(array, n)
+      real(dp), allocatable, intent(inout) :: array(:)
+      integer, intent(in) :: n
+
+      if (allocated(array)) then
+         if (size(array) == n) return
+         deallocate (array)
+      end if
+      allocate (array(n), source=0.0_dp)
+   end subroutine resize
+
+   !> Puts the ghosts where they are at the box's time, with the solids' velocity there.
+   subroutine move_ghosts(self, solids, box, state)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(solid_t), intent(in) :: solids(:)
+      type(box_t), intent(in) :: box
+      type(state_t), intent(inout) :: state    !! x, y, u, v and volume of the ghosts are set; density to 0
+      type(pose_t) :: pose(size(solids))
+      real(dp) :: place(2), velocity(2), acceleration(2), normal(2), area
+      integer :: i, k, solid
+
+      do k = 1, size(solids)
+         pose(k) = solids(k)%motion%at(box%time)
+      end do
+      !$omp parallel do default(none) shared(self, solids, box, state, pose) &
+      !$omp private(place, velocity, acceleration, normal, area, i, solid)
+      do k = 1, self%n_slots
+         i = self%before + k
+         place = far_away
+         velocity = 0
+         area = 0
+         self%pull_x(k) = 0
+         self%pull_y(k) = 0
+         if (self%strips%point_of(k) > 0) then
+            associate (ghost => self%drawn(self%strips%point_of(k)))
+               solid = ghost%solid
+               call move_part(ghost, solids(solid)%pivot, pose(solid), box, place, velocity, acceleration, area)
+               normal = turn(pose(solid)%angle, ghost%normal)
+               normal = dot_product(acceleration, normal)*normal
+               self%pull_x(k) = normal(1)
+               self%pull_y(k) = normal(2)
+            end associate
+         end if
+         state%x(i) = place(1)
+         state%y(i) = place(2)
+         state%u(i) = velocity(1)
+         state%v(i) = velocity(2)
+         state%s(i) = 0
+         state%volume(i) = area
+      end do
+      !$omp end parallel do
+   end subroutine move_ghosts
+
+   ! A ghost at a time. Walls may cut its part of the solid.
+   pure subroutine move_part(ghost, pivot, pose, box, place, velocity, acceleration, area)
+      type(drawn_t), intent(in) :: ghost
+      real(dp), intent(in) :: pivot(2)
+      type(pose_t), intent(in) :: pose
+      type(box_t), intent(in) :: box
+      real(dp), intent(out) :: place(2), velocity(2), acceleration(2), area
+      real(dp) :: corner(2, most_corners + 8), ignored(2), also_ignored(2), centre(2), drawn(2)
+      integer :: k, n
+
+      area = ghost%area
+      call move_point(pose, pivot, ghost%place, place, velocity, acceleration)
+      if (ghost%n_corners == 0) return
+      n = ghost%n_corners
+      do k = 1, n
+         call move_point(pose, pivot, ghost%corner(:, k), corner(:, k), ignored, also_ignored)
+      end do
+      if (.not. any([(is_beyond(box, minval(corner(:, :n), 2), maxval(corner(:, :n), 2), k), k=1, 4)])) return
+      call cut_at_walls(box, corner, n)
+      area = 0
+      if (n >= 3) area = polygon_area(corner(:, :n))
+      if (.not. area > 0) then
+         area = 0
+         return
+      end if
+      centre = polygon_centroid(corner(:, :n))
+      drawn = pivot + turn(-pose%angle, centre - pivot - pose%shift)
+      call move_point(pose, pivot, drawn, place, velocity, acceleration)
+   end subroutine move_part
+
+   ! Whether something reaches beyond a wall.
+   pure logical function is_beyond(box, lower, upper, side)
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: lower(2), upper(2)
+      integer, intent(in) :: side
+
+      associate (axis => axis_of(side))
+         if (mod(side, 2) == 1) then
+            is_beyond = lower(axis) < box%at(side)
+         else
+            is_beyond = upper(axis) > box%at(side)
+         end if
+      end associate
+      is_beyond = is_beyond .and. is_wall(box%kind(side))
+   end function is_beyond
+
+   !> Gives the images of ghosts what they have of these.
+   subroutine mirror_ghosts(self, box, state)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(box_t), intent(in) :: box             !! at the state's time
+      type(state_t), intent(inout) :: state      !! density of the ghosts is set, as is their exchange
+
+      if (self%images%n == 0) return
+      call fill_ghosts(self%images, box, state)
+      call mirror_field(self, self%exchange)
+   end subroutine mirror_ghosts
+
+   ! What images have as their sources do.
+   pure subroutine mirror_field(self, field)
+      type(solid_ghosts_t), intent(in) :: self
+      real(dp), intent(inout) :: field(:)   ! (n_slots and images)
+      integer :: k
+
+      do k = 1, self%images%n
+         field(self%n_slots + k) = field(self%images%source(k) - self%before)
+      end do
+   end subroutine mirror_field
+
+   !> Lists, for each block of the fluid, the ghosts that its clusters can reach, and for ghosts the fluid.
+   subroutine list_near_solids(self, blocks, strips, images, p, predicted, times, support)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(candidates_t), intent(in) :: blocks(:)   !! of the fluid
+      type(strips_t), intent(in) :: strips, images  !! of the fluid and of its images
+      type(particles_t), intent(in) :: p            !! base state of all slots
+      type(state_t), intent(inout) :: predicted     !! positions of all slots, and slack in place of the volume but of the ghosts
+      real(dp), intent(in) :: times(2)              !! from the base state to the prediction; before and after it that lists last
+      real(dp), intent(in) :: support
+      integer :: b
+
+      associate (first => self%before + 1, last => self%before + self%n_slots)
+         ! A solid's velocity at `base` leads its ghosts to where they are predicted; beside that they go by their acceleration.
+         predicted%volume(first:p%n_slots) = self%acceleration*(abs(times(1)) + times(2))**2 &
+                                             + self%creep*(abs(times(1)) + times(2))
+         call take_slack(self%strips, predicted%volume)
+         call take_slack(self%images%strips, predicted%volume)
+         call lay_out(self, size(blocks))
+      end associate
+      !$omp parallel default(none) shared(self, blocks, strips, images, p, predicted, times, support)
+      !$omp do schedule(dynamic)
+      do b = 1, size(blocks)
+         self%near(b)%before = blocks(b)%before
+         self%near(b)%n_clusters = blocks(b)%n_clusters
+         call list_block(self%near(b), self%strips, self%images%strips, p, predicted, times(2), support)
+      end do
+      !$omp end do
+      !$omp do schedule(dynamic)
+      do b = 1, self%n_blocks
+         call list_block(self%fluid(b), strips, images, p, predicted, times(2), support)
+      end do
+      !$omp end do
+      !$omp end parallel
+   end subroutine list_near_solids
+
+   ! Blocks of ghosts, whatever their strip: no sum goes over one.
+   subroutine lay_out(self, n_near)
+      type(solid_ghosts_t), intent(inout) :: self
+      integer, intent(in) :: n_near   ! blocks of the fluid
+      integer :: b, n_groups
+
+      n_groups = self%n_slots/group_slots
+      self%n_blocks = (n_groups + block_groups - 1)/block_groups
+      if (allocated(self%near)) then
+         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid)
+      end if
+      if (.not. allocated(self%near)) allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8))
+      do b = 1, self%n_blocks
+         self%fluid(b)%before = self%before + (b - 1)*block_groups*group_slots
+         self%fluid(b)%n_clusters = min(block_groups, n_groups - (b - 1)*block_groups)*group_slots/nl
+      end do
+   end subroutine lay_out
+
+   ! The lists of a block's clusters.
+   subroutine list_block(block, strips, images, p, predicted, travel, support)
+      type(candidates_t), intent(inout) :: block
+      type(strips_t), intent(in) :: strips, images
+      type(particles_t), intent(in) :: p
+      type(state_t), intent(in) :: predicted
+      real(dp), intent(in) :: travel, support
+      type(extent_t) :: group
+      type(ranges_t) :: own, mirrored
+      integer, allocatable :: found(:)
+      integer :: g, i0, n_groups
+
+      n_groups = nl*block%n_clusters/group_slots
+      do g = 1, n_groups
+         i0 = block%before + (g - 1)*group_slots
+         group = group_extent(p%id, predicted, p%base, i0)
+         own%n = 0
+         mirrored%n = 0
+         call add_ranges(strips, group, support, travel, own)
+         call add_ranges(images, group, support, travel, mirrored)
+         call list_group(block, g, own, mirrored, p%capacity, predicted%x, predicted%y, p%base%u, p%base%v, predicted%volume, i0, &
+                         group, support, travel, found)
+      end do
+      call trim_lists(block)
+   end subroutine list_block
+
+end module solid_ghosts

@@ -1,0 +1,123 @@
+!> Rigid bodies in the fluid: their outlines, where they are at a time, and particles that got into them.
+!!
+!! Source: ours (docs/equations.md, Solid bodies).
+module solids
+   use box, only: axis_of, box_t, is_wall
+   use kinds, only: dp
+   use motions, only: motion_t, move_point, pose_t
+   use polygons, only: is_inside, nearest_edge
+   implicit none
+   private
+
+   public :: solid_t, obstacle_t, new_obstacle, reachable_faces, cover, push_out
+
+   !> A solid as it is drawn: before its motion.
+   type :: solid_t
+      real(dp), allocatable :: outline(:, :)   !! (2, n) [m] corners, counter-clockwise
+      real(dp) :: pivot(2) = 0                 !! [m] that it turns about, and that moments are about
+      real(dp) :: angle = 0                    !! [rad] that its shape was turned by
+      logical :: no_slip = .false.             !! the fluid sticks to it
+      type(motion_t) :: motion
+   contains
+      procedure :: radius
+   end type solid_t
+
+   !> A solid at one time.
+   type :: obstacle_t
+      type(pose_t) :: pose
+      real(dp) :: pivot(2) = 0                 !! [m] at this time
+      real(dp), allocatable :: outline(:, :)   !! (2, n) [m]
+      logical, allocatable :: is_face(:)       !! (n) of edges: fluid can be beyond it
+      real(dp) :: lower(2) = 0, upper(2) = 0   !! [m] around it
+   contains
+      procedure :: velocity_at
+   end type obstacle_t
+
+contains
+
+   !> The farthest that a corner is from the pivot [m].
+   pure real(dp) function radius(self)
+      class(solid_t), intent(in) :: self
+
+      radius = sqrt(maxval((self%outline(1, :) - self%pivot(1))**2 + (self%outline(2, :) - self%pivot(2))**2))
+   end function radius
+
+   !> The solid at the box's time.
+   pure type(obstacle_t) function new_obstacle(solid, box) result(self)
+      type(solid_t), intent(in) :: solid
+      type(box_t), intent(in) :: box
+      real(dp) :: velocity(2), acceleration(2)
+      integer :: k
+
+      self%pose = solid%motion%at(box%time)
+      self%pivot = solid%pivot + self%pose%shift
+      allocate (self%outline(2, size(solid%outline, 2)), self%is_face(size(solid%outline, 2)))
+      do k = 1, size(solid%outline, 2)
+         call move_point(self%pose, solid%pivot, solid%outline(:, k), self%outline(:, k), velocity, acceleration)
+      end do
+      self%is_face(:) = reachable_faces(self%outline, box)
+      self%lower = minval(self%outline, 2)
+      self%upper = maxval(self%outline, 2)
+   end function new_obstacle
+
+   !> Edges that are not on, or beyond, a wall of the box.
+   pure function reachable_faces(outline, box) result(is_face)
+      real(dp), intent(in) :: outline(:, :)   !! (2, n)
+      type(box_t), intent(in) :: box
+      logical :: is_face(size(outline, 2))
+      real(dp), parameter :: rounding = 1.0e-9_dp   ! of the box's size
+      integer :: k, side, sign
+      real(dp) :: margin
+
+      margin = rounding*max(box%at(2) - box%at(1), box%at(4) - box%at(3))
+      is_face = .true.
+      do side = 1, 4
+         if (.not. is_wall(box%kind(side))) cycle
+         sign = merge(1, -1, mod(side, 2) == 1)   ! left and bottom: beyond is less
+         do k = 1, size(outline, 2)
+            associate (from => outline(axis_of(side), k), to => outline(axis_of(side), mod(k, size(outline, 2)) + 1))
+               if (max(sign*(from - box%at(side)), sign*(to - box%at(side))) <= margin) is_face(k) = .false.
+            end associate
+         end do
+      end do
+   end function reachable_faces
+
+   !> Velocity of a point that moves with the solid [m/s].
+   pure function velocity_at(self, place) result(velocity)
+      class(obstacle_t), intent(in) :: self
+      real(dp), intent(in) :: place(2)
+      real(dp) :: velocity(2)
+
+      velocity = self%pose%velocity + self%pose%spin*[self%pivot(2) - place(2), place(1) - self%pivot(1)]
+   end function velocity_at
+
+   !> Which solid a point is in; 0 for none.
+   pure integer function cover(obstacles, place) result(number)
+      type(obstacle_t), intent(in) :: obstacles(:)
+      real(dp), intent(in) :: place(2)
+
+      do number = 1, size(obstacles)
+         if (any(place < obstacles(number)%lower .or. place > obstacles(number)%upper)) cycle
+         if (is_inside(obstacles(number)%outline, place)) return
+      end do
+      number = 0
+   end function cover
+
+   !> Puts a particle that got into a solid back, as far before the nearest face as it was behind it; its normal velocity, as the
+   !! face sees it, points outwards then, and is less by what lifting it takes.
+   pure subroutine push_out(obstacle, force, place, velocity)
+      type(obstacle_t), intent(in) :: obstacle
+      real(dp), intent(in) :: force(2)             !! gravity and all else that acts there [m/s2]
+      real(dp), intent(inout) :: place(2), velocity(2)
+      real(dp) :: foot(2), normal(2), wall(2), distance, normal_speed
+      integer :: edge
+
+      call nearest_edge(obstacle%outline, obstacle%is_face, place, edge, distance, foot, normal)
+      if (edge == 0) return
+      wall = obstacle%velocity_at(foot)
+      normal_speed = dot_product(velocity - wall, normal)
+      velocity = velocity + normal*(sqrt(max(0.0_dp, normal_speed**2 + 4*distance*dot_product(force, normal))) - normal_speed)
+      place = foot + distance*normal
+   end subroutine push_out
+
+end module solids

@@ -1,0 +1,173 @@
+!> Solids in the fluid: pressure of their ghosts, forces on them, and what they add to the rates of the fluid.
+!!
+!! Source: ours (docs/equations.md, Solid bodies). The power that a solid gives to the fluid is -F.U, and what the hydrostatic
+!! parts of its ghosts' pressure add.
+module solid_terms
+   use box, only: box_t
+   use candidates, only: block_groups, block_slots
+   use flow_sums, only: flow_sums_t
+   use kinds, only: dp
+   use lanes, only: nl
+   use model, only: model_t
+   use neighbours, only: neighbours_t
+   use particles, only: particles_t, state_t
+   use solid_ghosts, only: mirror_ghosts, move_ghosts
+   use solid_sums, only: ghost_sums_t, sum_ghost_friction, sum_ghosts, sum_solid_friction, sum_solids
+   use strips, only: group_slots
+   implicit none
+   private
+
+   public :: meet_solids, add_solids, add_solid_friction, rub_solids, take_solid_work
+
+   real(dp), parameter :: least_weight = 1.0e-9_dp   ! sum_f W V_f below which a ghost has no fluid
+
+contains
+
+   !> Moves the ghosts to the box's time, and gives them the pressure of the fluid near them; the force on each, and its power.
+   subroutine meet_solids(model, box, near, state)
+      type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box               !! at the state's time
+      type(neighbours_t), intent(inout) :: near
+      type(state_t), intent(inout) :: state        !! fluid and images are filled; the ghosts and theirs are set
+      type(ghost_sums_t) :: sums
+      integer :: b
+
+      if (.not. near%ghosts%exist()) return
+      call move_ghosts(near%ghosts, model%solids, box, state)
+      !$omp parallel do default(none) shared(model, box, near, state) private(sums) schedule(dynamic)
+      do b = 1, near%ghosts%n_blocks
+         associate (block => near%ghosts%fluid(b))
+            call sum_ghosts(model%kernel, block, state, near%images, box, block%before, sums)
+            call take_pressure(model, near, nl*block%n_clusters, block%before, sums, state)
+         end associate
+      end do
+      !$omp end parallel do
+      call mirror_ghosts(near%ghosts, box, state)
+   end subroutine meet_solids
+
+   ! s_b = sum_f c_fb (s_f + rho0/c0**2 (g - (A.n) n).r), q_b, F_b and -F_b.U.
+   subroutine take_pressure(model, near, n, i0, sums, state)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(inout) :: near
+      integer, intent(in) :: n, i0             ! ghosts of the block; slot before its first
+      type(ghost_sums_t), intent(in) :: sums
+      type(state_t), intent(inout) :: state
+      real(dp) :: inverse, slope(2), s, factor, power_force(2)
+      integer :: k, m
+
+      do k = 1, n
+         m = i0 + k - near%ghosts%before
+         inverse = 0
+         if (model%kernel%value_factor*sums%weight(k) > least_weight) inverse = 1/sums%weight(k)
+         slope = model%rho0/model%c0**2*(model%acceleration - [0.0_dp, model%gravity] &
+                                         - [near%ghosts%pull_x(m), near%ghosts%pull_y(m)])
+         s = (sums%density(k) + slope(1)*sums%way_x(k) + slope(2)*sums%way_y(k))*inverse
+         state%s(i0 + k) = s
+         near%ghosts%exchange(m) = state%volume(i0 + k)*sums%inflow(k)*inverse
+         factor = model%c0**2*model%kernel%gradient_factor*state%volume(i0 + k)
+         associate (own => [sums%push_x(k) + s*sums%area_x(k), sums%push_y(k) + s*sums%area_y(k)], images => sums%images(:, k))
+            power_force = factor*(own + images(1:2) + s*images(3:4))
+            near%ghosts%force(:, m) = factor*(own + images(5:6) + s*images(7:8))
+         end associate
+         near%ghosts%power(m) = -power_force(1)*state%u(i0 + k) - power_force(2)*state%v(i0 + k)
+      end do
+   end subroutine take_pressure
+
+   !> Adds what solids give to the flow sums of a block, and the power that the fluid gets by that.
+   pure subroutine add_solids(model, near, state, b, sums, power)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      type(state_t), intent(in) :: state                  !! that the sums are of
+      integer, intent(in) :: b                            !! number of the block
+      class(flow_sums_t), intent(inout) :: sums
+      real(dp), intent(out) :: power(block_groups)        !! [W/m] of each group
+      type(flow_sums_t) :: solid
+      integer :: g, i, k, n
+
+      power = 0
+      associate (block => near%ghosts%near(b))
+         if (block%first(block%n_clusters + 1) == 1) return
+         n = nl*block%n_clusters
+         call sum_solids(model%kernel, block, state, near%ghosts%before, near%ghosts%exchange, block%before, solid)
+         do k = 1, n
+            i = block%before + k
+            g = 1 + (k - 1)/group_slots
+            power(g) = power(g) - model%c0**2*model%kernel%gradient_factor*state%volume(i) &
+                       *(state%u(i)*solid%force_x(k) + state%v(i)*solid%force_y(k) + state%s(i)*solid%divergence(k))
+         end do
+      end associate
+      sums%divergence(:n) = sums%divergence(:n) + solid%divergence(:n)
+      sums%force_x(:n) = sums%force_x(:n) + solid%force_x(:n)
+      sums%force_y(:n) = sums%force_y(:n) + solid%force_y(:n)
+   end subroutine add_solids
+
+   !> Adds the friction of solids to the viscous acceleration of a block.
+   pure subroutine add_solid_friction(model, near, p, b)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the block change
+      integer, intent(in) :: b
+      real(dp), dimension(block_slots) :: x, y
+      real(dp) :: alpha, factor
+      integer :: i, k
+
+      associate (block => near%ghosts%near(b))
+         if (block%first(block%n_clusters + 1) == 1) return
+         call sum_solid_friction(model%kernel, block, p%base, near%ghosts%before, near%ghosts%stick, block%before, x, y)
+         do k = 1, nl*block%n_clusters
+            i = block%before + k
+            alpha = model%alpha
+            if (p%features%eddy) alpha = alpha + p%alpha(i)
+            factor = alpha*model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0/(model%rho0 + p%base%s(i))
+            p%visc_x(i) = p%visc_x(i) + factor*x(k)
+            p%visc_y(i) = p%visc_y(i) + factor*y(k)
+         end do
+      end associate
+   end subroutine add_solid_friction
+
+   !> The friction on each ghost, from the base state.
+   subroutine rub_solids(model, box, near, p)
+      type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box
+      type(neighbours_t), intent(inout) :: near
+      type(particles_t), intent(in) :: p
+      real(dp) :: sums(4, block_slots), factor
+      integer :: b, k, m
+
+      factor = -model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0
+      !$omp parallel do default(none) shared(model, box, near, p, factor) private(k, m, sums) schedule(dynamic)
+      do b = 1, near%ghosts%n_blocks
+         associate (block => near%ghosts%fluid(b))
+            call sum_ghost_friction(model%kernel, block, p, near%images, box, model%alpha, block%before, sums)
+            do k = 1, nl*block%n_clusters
+               m = block%before + k - near%ghosts%before
+               near%ghosts%friction(:, m) = factor*near%ghosts%stick(m)*p%base%volume(block%before + k)*sums(:, k)
+            end do
+         end associate
+      end do
+      !$omp end parallel do
+   end subroutine rub_solids
+
+   !> Adds a stage's part to the work that each ghost gives to the fluid in a step; the first stage begins it.
+   pure subroutine take_solid_work(near, state, weight, begins)
+      type(neighbours_t), intent(inout) :: near
+      type(state_t), intent(in) :: state     !! of the stage
+      real(dp), intent(in) :: weight         !! [s] dt b_k
+      logical, intent(in) :: begins
+      real(dp) :: friction
+      integer :: i, k
+
+      if (.not. near%ghosts%exist()) return
+      associate (ghosts => near%ghosts)
+         if (begins) ghosts%work = 0
+         if (begins) ghosts%rubbed = 0
+         do k = 1, ghosts%n_slots
+            i = ghosts%before + k
+            friction = -ghosts%friction(3, k)*state%u(i) - ghosts%friction(4, k)*state%v(i)
+            ghosts%work(k) = ghosts%work(k) + weight*(ghosts%power(k) + friction)
+            ghosts%rubbed(k) = ghosts%rubbed(k) + weight*friction
+         end do
+      end associate
+   end subroutine take_solid_work
+
+end module solid_terms

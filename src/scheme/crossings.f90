@@ -1,0 +1,98 @@
+!> Particles that a step has led out of the box, or into a solid: put back, their energy kept or booked.
+!!
+!! Source: ours (docs/equations.md: Reflection, Periodic sides, Solid bodies).
+module crossings
+   use blocks, only: block_t
+   use box, only: bottom_wall, box_t, find_bounds, left_wall, reflect, right_wall, top_wall, wrap
+   use kinds, only: dp
+   use model, only: model_t
+   use particles, only: particles_t
+   use solids, only: cover, obstacle_t, push_out
+   use strips, only: group_slots
+   implicit none
+   private
+
+   public :: cross_sides, leave_solids
+
+contains
+
+   !> Puts back what got into solids.
+   pure subroutine leave_solids(model, obstacles, p, i0, n, sums)
+      type(model_t), intent(in) :: model
+      type(obstacle_t), intent(in) :: obstacles(:)   ! at the end of the step
+      type(particles_t), intent(inout) :: p
+      integer, intent(in) :: i0, n
+      type(block_t), intent(inout) :: sums
+      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), lifted
+      integer :: i, k, g
+
+      lower = minval(reshape([(obstacles(k)%lower, k=1, size(obstacles))], [2, size(obstacles)]), 2)
+      upper = maxval(reshape([(obstacles(k)%upper, k=1, size(obstacles))], [2, size(obstacles)]), 2)
+      do i = i0 + 1, i0 + n
+         before = [p%next%x(i), p%next%y(i)]
+         if (any(before < lower .or. before > upper) .or. p%id(i) == 0) cycle
+         k = cover(obstacles, before)
+         if (k == 0) cycle
+         place = before
+         velocity = [p%next%u(i), p%next%v(i)]
+         call push_out(obstacles(k), model%force_at(before), place, velocity)
+         impulse = p%m(i)*([p%next%u(i), p%next%v(i)] - velocity)
+         ! What the uniform force gave is not in the positions, as gravity's energy is.
+         lifted = p%m(i)*dot_product(model%acceleration, place - before)
+         g = 1 + (i - i0 - 1)/group_slots
+         sums%work(g, 4) = sums%work(g, 4) + lifted
+         sums%crossings = sums%crossings + 1
+         sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
+         if (.not. allocated(sums%struck)) allocate (sums%struck(4, size(obstacles)), source=0.0_dp)
+         associate (pivot => obstacles(k)%pivot)
+            sums%struck(:, k) = sums%struck(:, k) &
+               + [impulse, (place(1) - pivot(1))*impulse(2) - (place(2) - pivot(2))*impulse(1), &
+                  p%m(i)*(model%energy_at(place, velocity) - model%energy_at(before, [p%next%u(i), p%next%v(i)])) - lifted]
+         end associate
+         p%next%x(i) = place(1)
+         p%next%y(i) = place(2)
+         p%next%u(i) = velocity(1)
+         p%next%v(i) = velocity(2)
+      end do
+   end subroutine leave_solids
+
+   !> Puts back what left the box.
+   pure subroutine cross_sides(model, box, p, i0, n, sums)
+      type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box
+      type(particles_t), intent(inout) :: p
+      integer, intent(in) :: i0, n
+      type(block_t), intent(inout) :: sums
+      real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2)
+      logical :: crossed
+      integer :: i, g
+
+      call find_bounds(box, lower, upper)
+      do i = i0 + 1, i0 + n
+         if (.not. (p%next%x(i) < lower(1) .or. p%next%x(i) > upper(1) .or. p%next%y(i) < lower(2) &
+                    .or. p%next%y(i) > upper(2))) cycle
+         if (p%id(i) == 0) cycle
+         before = [p%next%x(i), p%next%y(i)]
+         place = before
+         velocity = [p%next%u(i), p%next%v(i)]
+         at_wall = min(max(before, box%at([left_wall, bottom_wall])), box%at([right_wall, top_wall]))
+         call reflect(box, model%force_at(at_wall), place, velocity, crossed)
+         if (crossed) then
+            sums%crossings = sums%crossings + 1
+            sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
+            ! What the uniform force gave is not in the positions, as gravity's energy is.
+            g = 1 + (i - i0 - 1)/group_slots
+            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration, place - before)
+         end if
+         if (any(box%is_periodic([1, 2]))) then
+            call wrap(box, place)
+            sums%wrapped = .true.
+         end if
+         p%next%x(i) = place(1)
+         p%next%y(i) = place(2)
+         p%next%u(i) = velocity(1)
+         p%next%v(i) = velocity(2)
+      end do
+   end subroutine cross_sides
+
+end module crossings
