@@ -1,44 +1,33 @@
 !> Ghosts of solids: points inside of them that stand for their volume in the sums of the fluid near them.
 !!
-!! Source: ours (docs/equations.md, Solid bodies). A ghost is the part of a cell of a lattice of width dx that the solid covers; it
-!! stands at the centroid of that part. Walls of the box cut it off. Ghosts take slots behind the fluid's images, in strips of
-!! their own, and have images like the fluid's. They are in no list of the fluid's own sums.
+!! Source: ours (docs/equations.md, Solid bodies). Module `solid_cells` places them. They take slots behind the fluid's images, in
+!! strips of their own, and have images like the fluid's. They are in no list of the fluid's own sums.
 module solid_ghosts
-   use box, only: axis_of, box_t, is_wall
+   use box, only: box_t
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
    use lanes, only: nl
    use motions, only: move_point, pose_t, turn
    use particles, only: far_away, particles_t, reserve_slots, state_t
-   use polygons, only: clip_polygon, nearest_edge, polygon_area, polygon_centroid, turned
-   use solids, only: new_obstacle, obstacle_t, reachable_faces, solid_t
+   use polygons, only: first_crossed, nearest_edge
+   use solid_cells, only: cell_t, find_cells, is_beyond, move_cell, opposite
+   use solids, only: new_obstacle, obstacle_t, solid_t
    use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
    private
 
-   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids
-
-   integer, parameter :: most_corners = 12            ! of a cell's part that walls cut at each time anew
-   real(dp), parameter :: least_area = 1.0e-6_dp      ! in dx**2; what is less is left out
-
-   !> As drawn, before the solid's motion.
-   type :: drawn_t
-      integer :: solid = 0              !! number
-      real(dp) :: place(2) = 0          !! [m]
-      real(dp) :: normal(2) = 0         !! of the nearest face, outwards
-      real(dp) :: area = 0              !! [m2]
-      integer :: n_corners = 0          !! 0: no wall ever cuts it
-      real(dp) :: corner(2, most_corners) = 0
-   end type drawn_t
+   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids, find_share
 
    !> All ghosts, and what is near them.
    type :: solid_ghosts_t
       integer :: n = 0                             !! of all solids
       integer :: before = 0                        !! slots before theirs
       integer :: n_slots = 0                       !! of theirs, padding included; their images come behind
-      type(drawn_t), allocatable :: drawn(:)       !! (n)
+      type(cell_t), allocatable :: drawn(:)        !! (n) before the solids' motion
+      logical :: shared = .false.                  !! some cell has a ghost for each of several faces
+      type(obstacle_t), allocatable :: obstacles(:)   !! solids where the ghosts are; only then
       real(dp) :: acceleration = 0                 !! [m/s2] none has more
       real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid
       type(strips_t) :: strips
@@ -56,6 +45,7 @@ module solid_ghosts
       real(dp), allocatable :: work(:)             !! [J/m] (n_slots) of the step, given to the fluid,
       real(dp), allocatable :: rubbed(:)           !! [J/m] (n_slots) of it by friction
       real(dp), allocatable :: x(:)                !! [m] (n_slots) when they were sorted
+      real(dp), allocatable :: place(:, :)         !! [m] (2, n_slots) now
    contains
       procedure :: exist
       procedure :: solid_of
@@ -96,106 +86,15 @@ contains
       type(solid_t), intent(in) :: solids(:)
       type(box_t), intent(in) :: box             !! at time 0
       real(dp), intent(in) :: dx, support        !! width of cells; of the kernel
-      type(drawn_t), allocatable :: found(:)
       integer :: k
 
-      allocate (found(64))
+      call find_cells(solids, box, dx, support, self%drawn)
+      self%n = size(self%drawn)
+      self%shared = any(self%drawn%edge > 0)
       do k = 1, size(solids)
-         call add_ghosts(solids(k), k, box, dx, support, found, self%n)
          self%acceleration = max(self%acceleration, solids(k)%motion%largest_acceleration(solids(k)%radius()))
       end do
-      allocate (self%drawn(self%n))
-      self%drawn(:) = found(:self%n)
    end subroutine make_ghosts
-
-   ! Cells as wide as is nearest to dx fill the box around a solid, which is turned as the solid was when it was drawn: so they fit
-   ! to a rectangle.
-   subroutine add_ghosts(solid, number, box, dx, support, found, n)
-      type(solid_t), intent(in) :: solid
-      integer, intent(in) :: number
-      type(box_t), intent(in) :: box
-      real(dp), intent(in) :: dx, support
-      type(drawn_t), allocatable, intent(inout) :: found(:)
-      integer, intent(inout) :: n
-      real(dp) :: upright(2, size(solid%outline, 2)), lower(2), cell(2)
-      real(dp), allocatable :: row(:, :), part(:, :)
-      logical :: is_face(size(solid%outline, 2))
-      type(obstacle_t) :: start
-      integer :: i, j, n_row, n_part, n_cells(2)
-
-      start = new_obstacle(solid, box)
-      is_face = start%is_face
-      if (.not. any(is_face)) return
-      upright = turned(solid%outline, solid%pivot, -solid%angle)
-      lower = minval(upright, 2)
-      n_cells = max(1, nint((maxval(upright, 2) - lower)/dx))
-      cell = (maxval(upright, 2) - lower)/n_cells
-      allocate (row(2, 2*size(upright, 2) + 8), part(2, 2*size(upright, 2) + 8))
-      do j = 1, n_cells(2)
-         n_row = size(upright, 2)
-         row(:, :n_row) = upright
-         call clip_polygon(row, n_row, lower + [0.0_dp, (j - 1)*cell(2)], [0.0_dp, 1.0_dp])
-         call clip_polygon(row, n_row, lower + [0.0_dp, j*cell(2)], [0.0_dp, -1.0_dp])
-         do i = 1, n_cells(1)
-            n_part = n_row
-            part(:, :n_part) = row(:, :n_row)
-            call clip_polygon(part, n_part, lower + [(i - 1)*cell(1), 0.0_dp], [1.0_dp, 0.0_dp])
-            call clip_polygon(part, n_part, lower + [i*cell(1), 0.0_dp], [-1.0_dp, 0.0_dp])
-            if (n_part < 3) cycle
-            part(:, :n_part) = turned(part(:, :n_part), solid%pivot, solid%angle)
-            call add_ghost(solid, number, is_face, box, [dx, support], part, n_part, found, n)
-         end do
-      end do
-   end subroutine add_ghosts
-
-   ! A cell's part, if it is near enough to a face. Where nothing moves, walls cut it once and for all.
-   subroutine add_ghost(solid, number, is_face, box, lengths, part, n_part, found, n)
-      type(solid_t), intent(in) :: solid
-      integer, intent(in) :: number
-      logical, intent(in) :: is_face(:)
-      type(box_t), intent(in) :: box
-      real(dp), intent(in) :: lengths(2)     ! dx, support
-      real(dp), intent(inout) :: part(:, :)
-      integer, intent(inout) :: n_part
-      type(drawn_t), allocatable, intent(inout) :: found(:)
-      integer, intent(inout) :: n
-      type(drawn_t) :: ghost
-      real(dp) :: foot(2), distance, area
-      integer :: edge
-
-      if (.not. solid%motion%moves()) call cut_at_walls(box, part, n_part)
-      if (n_part < 3) return
-      area = polygon_area(part(:, :n_part))
-      if (area < least_area*lengths(1)**2) return
-      ghost%solid = number
-      ghost%area = area
-      ghost%place = polygon_centroid(part(:, :n_part))
-      call nearest_edge(solid%outline, is_face, ghost%place, edge, distance, foot, ghost%normal)
-      if (distance > lengths(2)) return
-      if (solid%motion%moves() .and. n_part <= most_corners) then
-         ghost%n_corners = n_part
-         ghost%corner(:, :n_part) = part(:, :n_part)
-      end if
-      if (n == size(found)) found = [found, found]
-      n = n + 1
-      found(n) = ghost
-   end subroutine add_ghost
-
-   ! What of a polygon is not beyond a wall.
-   pure subroutine cut_at_walls(box, part, n)
-      type(box_t), intent(in) :: box
-      real(dp), intent(inout) :: part(:, :)
-      integer, intent(inout) :: n
-      real(dp) :: inwards(2)
-      integer :: side
-
-      do side = 1, 4
-         if (.not. is_wall(box%kind(side)) .or. n == 0) cycle
-         inwards = 0
-         inwards(axis_of(side)) = merge(1, -1, mod(side, 2) == 1)
-         call clip_polygon(part, n, spread(box%at(side), 1, 2), inwards)
-      end do
-   end subroutine cut_at_walls
 
    !> Gives the ghosts slots behind the fluid and its images, in the order of strips, and finds their images.
    subroutine sort_ghosts(self, solids, box, p, widths, times, slack)
@@ -285,11 +184,12 @@ contains
 
       if (allocated(self%power)) then
          if (size(self%power) == self%n_slots) return
-         deallocate (self%pull_x, self%pull_y, self%power, self%work, self%rubbed, self%x, self%force, self%friction)
+         deallocate (self%pull_x, self%pull_y, self%power, self%work, self%rubbed, self%x, self%place, self%force, &
+                     self%friction)
       end if
       associate (n => self%n_slots)
-         allocate (self%pull_x(n), self%pull_y(n), self%power(n), self%work(n), self%rubbed(n), self%x(n), self%force(2, n), &
-                   self%friction(4, n), source=0.0_dp)
+         allocate (self%pull_x(n), self%pull_y(n), self%power(n), self%work(n), self%rubbed(n), self%x(n), self%place(2, n), &
+                   self%force(2, n), self%friction(4, n), source=0.0_dp)
       end associate
    end subroutine make_room
 
@@ -317,6 +217,7 @@ contains
       do k = 1, size(solids)
          pose(k) = solids(k)%motion%at(box%time)
       end do
+      if (self%shared) self%obstacles = [(new_obstacle(solids(k), box), k=1, size(solids))]
       !$omp parallel do default(none) shared(self, solids, box, state, pose) &
       !$omp private(place, velocity, acceleration, normal, area, i, solid)
       do k = 1, self%n_slots
@@ -329,13 +230,14 @@ contains
          if (self%strips%point_of(k) > 0) then
             associate (ghost => self%drawn(self%strips%point_of(k)))
                solid = ghost%solid
-               call move_part(ghost, solids(solid)%pivot, pose(solid), box, place, velocity, acceleration, area)
+               call move_cell(ghost, solids(solid)%pivot, pose(solid), box, place, velocity, acceleration, area)
                normal = turn(pose(solid)%angle, ghost%normal)
                normal = dot_product(acceleration, normal)*normal
                self%pull_x(k) = normal(1)
                self%pull_y(k) = normal(2)
             end associate
          end if
+         self%place(:, k) = place
          state%x(i) = place(1)
          state%y(i) = place(2)
          state%u(i) = velocity(1)
@@ -346,51 +248,35 @@ contains
       !$omp end parallel do
    end subroutine move_ghosts
 
-   ! A ghost at a time. Walls may cut its part of the solid.
-   pure subroutine move_part(ghost, pivot, pose, box, place, velocity, acceleration, area)
-      type(drawn_t), intent(in) :: ghost
-      real(dp), intent(in) :: pivot(2)
-      type(pose_t), intent(in) :: pose
-      type(box_t), intent(in) :: box
-      real(dp), intent(out) :: place(2), velocity(2), acceleration(2), area
-      real(dp) :: corner(2, most_corners + 8), ignored(2), also_ignored(2), centre(2), drawn(2)
-      integer :: k, n
+   !> Which part a particle has in a ghost that is one of several of its cell: they act on each other if the way to the ghost first
+   !! leads through its face; the ghost has its pressure also of particles that come through faces that do not look the other way.
+   pure subroutine find_share(self, slot, place, ghost, sign, mine, shared)
+      type(solid_ghosts_t), intent(in) :: self
+      integer, intent(in) :: slot              !! of the ghost, or of its image; counted from the first ghost's
+      real(dp), intent(in) :: place(2)         !! of the particle
+      real(dp), intent(in) :: ghost(2)         !! of the ghost, or its image
+      real(dp), intent(in) :: sign(2)          !! -1 for axes along which it is mirrored
+      real(dp), intent(out) :: mine, shared    !! 1 or 0
+      real(dp) :: from(2), source(2), foot(2), normal(2), distance
+      integer :: k, edge
 
-      area = ghost%area
-      call move_point(pose, pivot, ghost%place, place, velocity, acceleration)
-      if (ghost%n_corners == 0) return
-      n = ghost%n_corners
-      do k = 1, n
-         call move_point(pose, pivot, ghost%corner(:, k), corner(:, k), ignored, also_ignored)
-      end do
-      if (.not. any([(is_beyond(box, minval(corner(:, :n), 2), maxval(corner(:, :n), 2), k), k=1, 4)])) return
-      call cut_at_walls(box, corner, n)
-      area = 0
-      if (n >= 3) area = polygon_area(corner(:, :n))
-      if (.not. area > 0) then
-         area = 0
-         return
-      end if
-      centre = polygon_centroid(corner(:, :n))
-      drawn = pivot + turn(-pose%angle, centre - pivot - pose%shift)
-      call move_point(pose, pivot, drawn, place, velocity, acceleration)
-   end subroutine move_part
-
-   ! Whether something reaches beyond a wall.
-   pure logical function is_beyond(box, lower, upper, side)
-      type(box_t), intent(in) :: box
-      real(dp), intent(in) :: lower(2), upper(2)
-      integer, intent(in) :: side
-
-      associate (axis => axis_of(side))
-         if (mod(side, 2) == 1) then
-            is_beyond = lower(axis) < box%at(side)
-         else
-            is_beyond = upper(axis) > box%at(side)
-         end if
+      mine = 1
+      shared = 1
+      k = slot
+      if (k > self%n_slots) k = self%images%source(k - self%n_slots) - self%before
+      if (self%strips%point_of(k) == 0) return
+      associate (cell => self%drawn(self%strips%point_of(k)))
+         if (cell%edge == 0) return
+         associate (solid => self%obstacles(cell%solid))
+            source = self%place(:, k)
+            from = source + sign*(place - ghost)
+            edge = first_crossed(solid%outline, solid%is_face, from, source)
+            if (edge == 0) call nearest_edge(solid%outline, solid%is_face, from, edge, distance, foot, normal)
+            mine = merge(1.0_dp, 0.0_dp, edge == cell%edge)
+            shared = merge(1.0_dp, 0.0_dp, .not. opposite(solid%outline, edge, cell%edge))
+         end associate
       end associate
-      is_beyond = is_beyond .and. is_wall(box%kind(side))
-   end function is_beyond
+   end subroutine find_share
 
    !> Gives the images of ghosts what they have of these.
    subroutine mirror_ghosts(self, box, state)
