@@ -121,8 +121,9 @@ contains
       integer :: i
 
       do i = 1, numbers%n()
-         if (i > 1) call lines%add(', ')
-         if (i > 1 .and. mod(i, per_line) == 1) call lines%add(new_line('a')//'      ')
+         if (i > 1) call lines%add(',')
+         if (i > 1 .and. mod(i, per_line) == 1) call lines%add(new_line('a')//'     ')
+         if (i > 1) call lines%add(' ')
          call lines%add(to_text(numbers%values(i)))
       end do
       words = lines%text()
