@@ -1,7 +1,7 @@
 !> Checks where solids lie, and that they and the gaps beside them are wide enough for the particles.
 !!
-!! A particle feels what is within its kernel. In what is thinner than the kernel is wide, fluid feels the other side through a
-!! solid; in narrower gaps there is no fluid that feels but one wall.
+!! A particle feels what is within its kernel's radius. In what is thinner, it would feel the fluid behind a solid; in narrower
+!! gaps there is no fluid but what feels both walls. A disc must be twice as thick: it has too many faces for a ghost for each.
 module solid_room
    use draft, only: draft_t
    use kinds, only: dp
@@ -18,7 +18,8 @@ module solid_room
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: sharpest = 20*pi/180      ! interior angle that is no thin tip yet
    real(dp), parameter :: wedge = pi/3              ! below, `thinnest` sees the two edges of a corner face each other
-   real(dp), parameter :: diameter = 4.0_dp         ! of the kernel [h]
+   real(dp), parameter :: radius = 2.0_dp           ! of the kernel [h]
+   real(dp), parameter :: diameter = 2*radius
    real(dp), parameter :: slack = 1.0e-9_dp         ! relative; rounding of the input
    real(dp), parameter :: wide_enough = 0.99_dp     ! of a gap: discs are polygons whose corners stand out
    real(dp), parameter :: coarsest = 1.0e-5_dp      ! steps of coordinates [dx]
@@ -61,7 +62,7 @@ contains
 
       walls = is_wall(draft%scene%side_kinds())
       associate (scene => draft%scene, solids => draft%scene%solids)
-         least = diameter*scene%smoothing_length()
+         least = radius*scene%smoothing_length()
          do i = 2, size(solids)
             if (.not. well(i) .or. solids(i)%motion /= 'none') cycle
             one = within_walls(scene, starting_outline(scene, solids(i)), walls)
@@ -208,13 +209,13 @@ contains
       real(dp) :: least, place(2), width
 
       problem = ''
-      least = diameter*scene%smoothing_length()
+      least = radius*scene%smoothing_length()
       call measure_extent(outline, width, place)
       if (width >= least - scene%margin()) then
          call leave_out_tips(inner, edges_in_fluid(scene, inner), least, blunt, counts)
          call thinnest(blunt, counts, least, width, place)
       end if
-      if (width < least - scene%margin()) problem = too_thin(scene, width, place)
+      if (width < least - scene%margin()) problem = too_thin(scene, radius, width, place)
    end function thin_problem
 
    ! Whether a disc is too small; '' if it is not. Its polygon is a little thinner.
@@ -225,17 +226,18 @@ contains
 
       problem = ''
       if (2*solid%radius < diameter*scene%smoothing_length() - scene%margin()) &
-         problem = too_thin(scene, 2*solid%radius, solid%centre)
+         problem = too_thin(scene, diameter, 2*solid%radius, solid%centre)
    end function disc_problem
 
    ! How thin it is, and what to do.
-   function too_thin(scene, width, place) result(problem)
+   function too_thin(scene, needed, width, place) result(problem)
       type(settings_t), intent(in) :: scene
+      real(dp), intent(in) :: needed             ! [h]
       real(dp), intent(in) :: width, place(2)
       character(:), allocatable :: problem
       real(dp) :: least, resolution
 
-      least = diameter*scene%smoothing_length()
+      least = needed*scene%smoothing_length()
       problem = 'is only '//measured(scene, width)//' thick at '//in_words(place)//'; '//short(least/scene%spacing()) &
                 //' dx are needed: '
       resolution = scene%scene%resolution*least/max(width, 1.0e-9_dp*least)
@@ -324,7 +326,7 @@ contains
 
       problem = ''
       walls = is_wall(scene%side_kinds())
-      least = diameter*scene%smoothing_length()
+      least = radius*scene%smoothing_length()
       do side = 1, 4
          if (.not. walls(side)) cycle
          ! What lies beyond the walls across meets no fluid.

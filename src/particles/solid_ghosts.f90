@@ -5,6 +5,7 @@
 module solid_ghosts
    use box, only: box_t
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
+   use image_laws, only: as_position, law_t
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
    use lanes, only: nl
@@ -49,6 +50,7 @@ module solid_ghosts
    contains
       procedure :: exist
       procedure :: solid_of
+      procedure :: signs
       procedure :: bytes => ghosts_bytes
    end type solid_ghosts_t
 
@@ -69,6 +71,22 @@ contains
       solid_of = self%strips%point_of(k)
       if (solid_of > 0) solid_of = self%drawn(solid_of)%solid
    end function solid_of
+
+   !> -1 for axes along which the ghost in a slot is mirrored, else 1.
+   pure function signs(self, box, slot)
+      class(solid_ghosts_t), intent(in) :: self
+      type(box_t), intent(in) :: box
+      integer, intent(in) :: slot
+      real(dp) :: signs(2)
+      type(law_t) :: law(2)
+
+      signs = 1
+      if (slot <= self%images%n_held) return
+      law = [as_position(box, 1), as_position(box, 2)]
+      associate (kind => self%images%kind(slot - self%images%n_held))
+         signs = [law(1)%factor(kind), law(2)%factor(kind)]
+      end associate
+   end function signs
 
    !> Bytes that all arrays take.
    pure integer(i8) function ghosts_bytes(self) result(bytes)

@@ -8,14 +8,15 @@ module solid_sums
    use flow_sums, only: flow_sums_t
    use image_laws, only: as_position, image_of, law_t
    use images, only: images_t
-   use kernel, only: kernel_t, pair_with_value, squared_distance
+   use kernel, only: kernel_t, pair_with_value
    use kinds, only: dp
    use lanes, only: nl
-   use particles, only: particles_t, state_t
+   use particles, only: state_t
+   use solid_ghosts, only: find_share, solid_ghosts_t
    implicit none
    private
 
-   public :: ghost_sums_t, sum_ghosts, sum_solids, sum_solid_friction, sum_ghost_friction
+   public :: ghost_sums_t, sum_ghosts, sum_solids
 
    !> Sums over the fluid near a block of ghosts, without the kernel's constant factors; r = r_b - r_f.
    type :: ghost_sums_t
@@ -34,13 +35,30 @@ module solid_sums
 contains
 
    !> What the ghosts of a block have of the fluid near them.
-   pure subroutine sum_ghosts(kernel, block, state, images, box, i0, sums)
+   pure subroutine sum_ghosts(kernel, ghosts, b, state, images, box, sums)
       type(kernel_t), intent(in) :: kernel
-      type(candidates_t), intent(in) :: block
+      type(solid_ghosts_t), intent(in) :: ghosts
+      integer, intent(in) :: b                !! number of their block
       type(state_t), intent(in) :: state      !! of all slots
       type(images_t), intent(in) :: images    !! of the fluid
       type(box_t), intent(in) :: box          !! at the state's time
-      integer, intent(in) :: i0               !! slot before the block's first
+      type(ghost_sums_t), intent(inout) :: sums
+
+      if (ghosts%shared) then
+         call sum_shares(kernel, ghosts, ghosts%fluid(b), state, images, box, sums)
+      else
+         call sum_whole(kernel, ghosts%fluid(b), state, images, box, ghosts%fluid(b)%before, sums)
+      end if
+   end subroutine sum_ghosts
+
+   ! Where no cell has several ghosts.
+   pure subroutine sum_whole(kernel, block, state, images, box, i0, sums)
+      type(kernel_t), intent(in) :: kernel
+      type(candidates_t), intent(in) :: block
+      type(state_t), intent(in) :: state
+      type(images_t), intent(in) :: images
+      type(box_t), intent(in) :: box
+      integer, intent(in) :: i0
       type(ghost_sums_t), intent(inout) :: sums
       integer :: c, k, n
 
@@ -51,7 +69,52 @@ contains
                          state%s, state%volume, i0 + k, k, kernel%inverse_support, sums)
          call sum_images(kernel, block, c, state, images, box, i0, sums)
       end do
-   end subroutine sum_ghosts
+   end subroutine sum_whole
+
+   ! The same sums, pair by pair, where some cells have a ghost for each of several faces.
+   pure subroutine sum_shares(kernel, ghosts, block, state, images, box, sums)
+      type(kernel_t), intent(in) :: kernel
+      type(solid_ghosts_t), intent(in) :: ghosts
+      type(candidates_t), intent(in) :: block
+      type(state_t), intent(in) :: state
+      type(images_t), intent(in) :: images
+      type(box_t), intent(in) :: box
+      type(ghost_sums_t), intent(inout) :: sums
+      real(dp) :: way(2), g, w, mine, shared
+      integer :: c, i, j, k, l
+
+      sums%weight = 0; sums%density = 0; sums%way_x = 0; sums%way_y = 0; sums%inflow = 0
+      sums%push_x = 0; sums%push_y = 0; sums%area_x = 0; sums%area_y = 0
+      sums%images = 0
+      do c = 1, block%n_clusters
+         do k = block%first(c), block%first(c + 1) - 1
+            j = block%slot(k)
+            do l = (c - 1)*nl + 1, c*nl
+               i = block%before + l
+               way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
+               call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
+               if (.not. g > 0) cycle
+               call find_share(ghosts, i - ghosts%before, [state%x(j), state%y(j)], [state%x(i), state%y(i)], [1.0_dp, 1.0_dp], &
+                               mine, shared)
+               g = mine*g*state%volume(j)
+               w = shared*w*state%volume(j)
+               sums%weight(l) = sums%weight(l) + w
+               sums%density(l) = sums%density(l) + w*state%s(j)
+               sums%way_x(l) = sums%way_x(l) + w*way(1)
+               sums%way_y(l) = sums%way_y(l) + w*way(2)
+               sums%inflow(l) = sums%inflow(l) + g*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2))
+               if (k < block%first_image(c)) then
+                  sums%push_x(l) = sums%push_x(l) + state%s(j)*g*way(1)
+                  sums%push_y(l) = sums%push_y(l) + state%s(j)*g*way(2)
+                  sums%area_x(l) = sums%area_x(l) + g*way(1)
+                  sums%area_y(l) = sums%area_y(l) + g*way(2)
+               else
+                  call add_image(state, images, box, i, j, g*way, sums%images(:, l))
+               end if
+            end do
+         end do
+      end do
+   end subroutine sum_shares
 
    ! Over the fluid and its images, whose density is the hydrostatically continued one.
    pure subroutine ghost_loop(n_near, near, n, x, y, u, v, s, volume, i0, k0, inverse_support, sums)
@@ -100,8 +163,7 @@ contains
       sums%area_y(k0 + 1:k0 + nl) = area_y
    end subroutine ghost_loop
 
-   ! Of images, `push` and `area` once more: an image of kind M acts on a ghost as its source, with its own density, does on the
-   ! ghost's image of that kind, whose density is less by the hydrostatic difference. The force that the source feels is mirrored.
+   ! `push` and `area` of images apart: `ghost_loop` has added them to the fluid's.
    pure subroutine sum_images(kernel, block, c, state, images, box, i0, sums)
       type(kernel_t), intent(in) :: kernel
       type(candidates_t), intent(in) :: block
@@ -111,58 +173,107 @@ contains
       type(box_t), intent(in) :: box
       integer, intent(in) :: i0
       type(ghost_sums_t), intent(inout) :: sums
-      type(law_t) :: law(2)
-      real(dp) :: dx, dy, g, w, s, plain(4), sign(4)
-      integer :: k, j, l, kind
+      real(dp) :: way(2), g, w
+      integer :: k, j, l
 
       sums%images(:, (c - 1)*nl + 1:c*nl) = 0
-      if (block%first_image(c) >= block%first(c + 1)) return
-      law = [as_position(box, 1), as_position(box, 2)]
       do k = block%first_image(c), block%first(c + 1) - 1
          j = block%slot(k)
-         kind = images%kind(j - images%n_held)
-         sign = [law(1)%factor(kind), law(2)%factor(kind), law(1)%factor(kind), law(2)%factor(kind)]
          do l = (c - 1)*nl + 1, c*nl
-            associate (x => state%x(i0 + l), y => state%y(i0 + l))
-               dx = x - state%x(j)
-               dy = y - state%y(j)
-               call pair_with_value(dx, dy, kernel%inverse_support, g, w)
-               if (.not. g > 0) cycle
-               g = g*state%volume(j)
-               s = state%s(images%source(j - images%n_held)) + box%density_slope(1)*(image_of(law(1), kind, x) - x) &
-                   + box%density_slope(2)*(image_of(law(2), kind, y) - y)
-            end associate
-            plain = g*[s*dx, s*dy, dx, dy]
-            ! `ghost_loop` has taken the image's own density.
-            sums%push_x(l) = sums%push_x(l) - g*state%s(j)*dx
-            sums%push_y(l) = sums%push_y(l) - g*state%s(j)*dy
-            sums%area_x(l) = sums%area_x(l) - g*dx
-            sums%area_y(l) = sums%area_y(l) - g*dy
-            sums%images(1:4, l) = sums%images(1:4, l) + plain
-            sums%images(5:8, l) = sums%images(5:8, l) + sign*plain
+            way = [state%x(i0 + l) - state%x(j), state%y(i0 + l) - state%y(j)]
+            call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
+            if (.not. g > 0) cycle
+            g = g*state%volume(j)
+            sums%push_x(l) = sums%push_x(l) - g*state%s(j)*way(1)
+            sums%push_y(l) = sums%push_y(l) - g*state%s(j)*way(2)
+            sums%area_x(l) = sums%area_x(l) - g*way(1)
+            sums%area_y(l) = sums%area_y(l) - g*way(2)
+            call add_image(state, images, box, i0 + l, j, g*way, sums%images(:, l))
          end do
       end do
    end subroutine sum_images
 
+   ! An image of kind M acts on a ghost as its source, with its own density, does on the ghost's image of that kind, whose density
+   ! is other by the hydrostatic difference. The force that the source feels is mirrored.
+   pure subroutine add_image(state, images, box, i, j, weight, sums)
+      type(state_t), intent(in) :: state
+      type(images_t), intent(in) :: images
+      type(box_t), intent(in) :: box
+      integer, intent(in) :: i, j            ! slots of the ghost and of the image
+      real(dp), intent(in) :: weight(2)      ! t**3 V_f r
+      real(dp), intent(inout) :: sums(8)
+      type(law_t) :: law(2)
+      real(dp) :: place(2), s, plain(4)
+      integer :: kind
+
+      law = [as_position(box, 1), as_position(box, 2)]
+      kind = images%kind(j - images%n_held)
+      place = [state%x(i), state%y(i)]
+      s = state%s(images%source(j - images%n_held)) &
+          + box%density_slope(1)*(image_of(law(1), kind, place(1)) - place(1)) &
+          + box%density_slope(2)*(image_of(law(2), kind, place(2)) - place(2))
+      plain = [s*weight, weight]
+      sums(1:4) = sums(1:4) + plain
+      sums(5:8) = sums(5:8) + [law(1)%factor(kind), law(2)%factor(kind), law(1)%factor(kind), law(2)%factor(kind)]*plain
+   end subroutine add_image
+
    !> What solids add to the flow sums of a block of the fluid.
-   pure subroutine sum_solids(kernel, block, state, before, exchange, i0, sums)
+   pure subroutine sum_solids(kernel, ghosts, b, state, box, sums)
       type(kernel_t), intent(in) :: kernel
-      type(candidates_t), intent(in) :: block   !! ghosts and their images near each cluster
+      type(solid_ghosts_t), intent(in) :: ghosts
+      integer, intent(in) :: b                  !! number of the block
       type(state_t), intent(in) :: state        !! of all slots
-      integer, intent(in) :: before             !! slots before the ghosts
-      real(dp), intent(in) :: exchange(:)       !! (ghosts and images)
-      integer, intent(in) :: i0                 !! slot before the block's first
+      type(box_t), intent(in) :: box            !! at any time
       type(flow_sums_t), intent(inout) :: sums
       integer :: c, k
 
-      do c = 1, block%n_clusters
-         k = (c - 1)*nl
-         call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), size(state%x), &
-                        state%x, state%y, state%u, state%v, state%s, state%volume, size(exchange), exchange, before, i0 + k, &
-                        kernel%inverse_support, sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), &
-                        sums%force_y(k + 1:k + nl))
-      end do
+      associate (block => ghosts%near(b))
+         do c = 1, block%n_clusters
+            k = (c - 1)*nl
+            if (ghosts%shared) then
+               call share_loop(kernel, ghosts, block, c, state, box, sums)
+            else
+               call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
+                              size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, size(ghosts%exchange), &
+                              ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
+                              sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
+            end if
+         end do
+      end associate
    end subroutine sum_solids
+
+   ! The same pair by pair, where some cells have a ghost for each of several faces.
+   pure subroutine share_loop(kernel, ghosts, block, c, state, box, sums)
+      type(kernel_t), intent(in) :: kernel
+      type(solid_ghosts_t), intent(in) :: ghosts
+      type(candidates_t), intent(in) :: block
+      integer, intent(in) :: c                  ! cluster
+      type(state_t), intent(in) :: state
+      type(box_t), intent(in) :: box
+      type(flow_sums_t), intent(inout) :: sums
+      real(dp) :: way(2), g, w, mine, shared
+      integer :: i, j, k, l
+
+      do l = (c - 1)*nl + 1, c*nl
+         i = block%before + l
+         sums%divergence(l) = 0
+         sums%force_x(l) = 0
+         sums%force_y(l) = 0
+         do k = block%first(c), block%first(c + 1) - 1
+            j = block%slot(k)
+            way = [state%x(j) - state%x(i), state%y(j) - state%y(i)]
+            call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
+            if (.not. g > 0) cycle
+            call find_share(ghosts, j - ghosts%before, [state%x(i), state%y(i)], [state%x(j), state%y(j)], ghosts%signs(box, j), &
+                            mine, shared)
+            g = mine*g*state%volume(j)
+            sums%divergence(l) = sums%divergence(l) + g*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2)) &
+                                 - shared*w*ghosts%exchange(j - ghosts%before)
+            sums%force_x(l) = sums%force_x(l) + (state%s(j) + state%s(i))*g*way(1)
+            sums%force_y(l) = sums%force_y(l) + (state%s(j) + state%s(i))*g*way(2)
+         end do
+      end do
+   end subroutine share_loop
 
    pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, volume, n_ghosts, exchange, before, i0, inverse_support, divergence, &
                              force_x, force_y)
@@ -199,74 +310,5 @@ contains
       force_x = fx
       force_y = fy
    end subroutine lane_loop
-
-   !> The viscous sum over ghosts that the fluid sticks to: pi_ib with u_b - u_i = 2 (U - u_i), and alpha_i for both.
-   pure subroutine sum_solid_friction(kernel, block, state, before, stick, i0, x, y)
-      type(kernel_t), intent(in) :: kernel
-      type(candidates_t), intent(in) :: block   !! ghosts and their images near each cluster
-      type(state_t), intent(in) :: state
-      integer, intent(in) :: before             !! slots before the ghosts
-      real(dp), intent(in) :: stick(:)          !! (ghosts and images) 1 or 0
-      integer, intent(in) :: i0
-      real(dp), intent(out) :: x(block_slots)   !! [m3/s] sum_b pi_ib x_bi t**3 V_b
-      real(dp), intent(out) :: y(block_slots)   !! [m3/s]
-      real(dp) :: dx, dy, g, f, unused
-      integer :: c, k, j, l
-
-      x = 0
-      y = 0
-      do c = 1, block%n_clusters
-         do k = block%first(c), block%first(c + 1) - 1
-            j = block%slot(k)
-            !$omp simd private(dx, dy, g, f, unused)
-            do l = (c - 1)*nl + 1, c*nl
-               dx = state%x(j) - state%x(i0 + l)
-               dy = state%y(j) - state%y(i0 + l)
-               call pair_with_value(dx, dy, kernel%inverse_support, g, unused)
-               f = 2*((state%u(j) - state%u(i0 + l))*dx + (state%v(j) - state%v(i0 + l))*dy)/squared_distance(dx, dy)
-               f = f*g*state%volume(j)*stick(j - before)
-               x(l) = x(l) + f*dx
-               y(l) = y(l) + f*dy
-            end do
-         end do
-      end do
-   end subroutine sum_solid_friction
-
-   !> The same from the side of the ghosts.
-   pure subroutine sum_ghost_friction(kernel, block, p, images, box, alpha, i0, sums)
-      type(kernel_t), intent(in) :: kernel
-      type(candidates_t), intent(in) :: block    !! fluid near each cluster of ghosts
-      type(particles_t), intent(in) :: p         !! base state, and alpha_i with the dynamic model
-      type(images_t), intent(in) :: images       !! of the fluid
-      type(box_t), intent(in) :: box
-      real(dp), intent(in) :: alpha              !! [1] that acts everywhere
-      integer, intent(in) :: i0
-      real(dp), intent(out) :: sums(4, block_slots)   !! [m3/s] sum_f alpha_f pi_fb r t**3 V_f, of images mirrored; as it is
-      real(dp) :: dx, dy, g, f, unused, alpha_j, sign(2)
-      type(law_t) :: law(2)
-      integer :: c, k, j, l
-
-      sums = 0
-      law = [as_position(box, 1), as_position(box, 2)]
-      do c = 1, block%n_clusters
-         do k = block%first(c), block%first(c + 1) - 1
-            j = block%slot(k)
-            sign = 1
-            alpha_j = 0
-            if (p%features%eddy) alpha_j = p%alpha(j)
-            if (k >= block%first_image(c)) sign = [law(1)%factor(images%kind(j - images%n_held)), &
-                                                   law(2)%factor(images%kind(j - images%n_held))]
-            do l = (c - 1)*nl + 1, c*nl
-               dx = p%base%x(i0 + l) - p%base%x(j)
-               dy = p%base%y(i0 + l) - p%base%y(j)
-               call pair_with_value(dx, dy, kernel%inverse_support, g, unused)
-               if (.not. g > 0) cycle
-               f = 2*((p%base%u(i0 + l) - p%base%u(j))*dx + (p%base%v(i0 + l) - p%base%v(j))*dy)/squared_distance(dx, dy)
-               f = (alpha + alpha_j)*f*g*p%base%volume(j)
-               sums(:, l) = sums(:, l) + f*[sign(1)*dx, sign(2)*dy, dx, dy]
-            end do
-         end do
-      end do
-   end subroutine sum_ghost_friction
 
 end module solid_sums

@@ -12,7 +12,8 @@ module solid_terms
    use neighbours, only: neighbours_t
    use particles, only: particles_t, state_t
    use solid_ghosts, only: mirror_ghosts, move_ghosts
-   use solid_sums, only: ghost_sums_t, sum_ghost_friction, sum_ghosts, sum_solid_friction, sum_solids
+   use solid_friction, only: sum_ghost_friction, sum_solid_friction
+   use solid_sums, only: ghost_sums_t, sum_ghosts, sum_solids
    use strips, only: group_slots
    implicit none
    private
@@ -37,7 +38,7 @@ contains
       !$omp parallel do default(none) shared(model, box, near, state) private(sums) schedule(dynamic)
       do b = 1, near%ghosts%n_blocks
          associate (block => near%ghosts%fluid(b))
-            call sum_ghosts(model%kernel, block, state, near%images, box, block%before, sums)
+            call sum_ghosts(model%kernel, near%ghosts, b, state, near%images, box, sums)
             call take_pressure(model, near, nl*block%n_clusters, block%before, sums, state)
          end associate
       end do
@@ -88,7 +89,7 @@ contains
       associate (block => near%ghosts%near(b))
          if (block%first(block%n_clusters + 1) == 1) return
          n = nl*block%n_clusters
-         call sum_solids(model%kernel, block, state, near%ghosts%before, near%ghosts%exchange, block%before, solid)
+         call sum_solids(model%kernel, near%ghosts, b, state, model%box, solid)
          do k = 1, n
             i = block%before + k
             g = 1 + (k - 1)/group_slots
@@ -113,7 +114,7 @@ contains
 
       associate (block => near%ghosts%near(b))
          if (block%first(block%n_clusters + 1) == 1) return
-         call sum_solid_friction(model%kernel, block, p%base, near%ghosts%before, near%ghosts%stick, block%before, x, y)
+         call sum_solid_friction(model%kernel, near%ghosts, b, p%base, model%box, x, y)
          do k = 1, nl*block%n_clusters
             i = block%before + k
             alpha = model%alpha
@@ -138,7 +139,7 @@ contains
       !$omp parallel do default(none) shared(model, box, near, p, factor) private(k, m, sums) schedule(dynamic)
       do b = 1, near%ghosts%n_blocks
          associate (block => near%ghosts%fluid(b))
-            call sum_ghost_friction(model%kernel, block, p, near%images, box, model%alpha, block%before, sums)
+            call sum_ghost_friction(model%kernel, near%ghosts, b, p, near%images, box, model%alpha, sums)
             do k = 1, nl*block%n_clusters
                m = block%before + k - near%ghosts%before
                near%ghosts%friction(:, m) = factor*near%ghosts%stick(m)*p%base%volume(block%before + k)*sums(:, k)
