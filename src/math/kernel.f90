@@ -90,9 +90,14 @@ contains
       real(dp), intent(in) :: inverse_support   !! 1/2h
       real(dp), intent(out) :: weight           !! t**3
       real(dp), intent(out) :: value            !! t**4 (5 - 4 t), because 1 + 2q = 5 - 4t
-      real(dp) :: t
+      real(dp) :: r, inverse, t
 
-      t = max(0.0_dp, 1 - inverse_support*sqrt(squared_distance(dx, dy)))
+      if (hardware_root) then
+         r = sqrt(squared_distance(dx, dy))
+      else
+         call root(squared_distance(dx, dy), r, inverse)
+      end if
+      t = max(0.0_dp, 1 - inverse_support*r)
       weight = t*t*t
       value = weight*t*(5 - 4*t)
    end subroutine pair_with_value

@@ -229,42 +229,58 @@ contains
       type(box_t), intent(in) :: box
       type(state_t), intent(inout) :: state    !! x, y, u, v and volume of the ghosts are set; density to 0
       type(pose_t) :: pose(size(solids))
-      real(dp) :: place(2), velocity(2), acceleration(2), normal(2), area
-      integer :: i, k, solid
+      logical :: moves(size(solids))
+      integer :: k
 
       do k = 1, size(solids)
          pose(k) = solids(k)%motion%at(box%time)
+         moves(k) = solids(k)%motion%moves()
       end do
       if (self%shared) self%obstacles = [(new_obstacle(solids(k), box), k=1, size(solids))]
-      !$omp parallel do default(none) shared(self, solids, box, state, pose) &
-      !$omp private(place, velocity, acceleration, normal, area, i, solid)
+      !$omp parallel do default(none) shared(self, solids, box, state, pose, moves)
       do k = 1, self%n_slots
-         i = self%before + k
-         place = far_away
-         velocity = 0
-         area = 0
-         self%pull_x(k) = 0
-         self%pull_y(k) = 0
-         if (self%strips%point_of(k) > 0) then
-            associate (ghost => self%drawn(self%strips%point_of(k)))
-               solid = ghost%solid
-               call move_cell(ghost, solids(solid)%pivot, pose(solid), box, place, velocity, acceleration, area)
-               normal = turn(pose(solid)%angle, ghost%normal)
-               normal = dot_product(acceleration, normal)*normal
-               self%pull_x(k) = normal(1)
-               self%pull_y(k) = normal(2)
-            end associate
-         end if
-         self%place(:, k) = place
+         call move_ghost(self, solids, box, pose, moves, k, state)
+      end do
+      !$omp end parallel do
+   end subroutine move_ghosts
+
+   pure subroutine move_ghost(self, solids, box, pose, moves, k, state)
+      type(solid_ghosts_t), intent(inout) :: self
+      type(solid_t), intent(in) :: solids(:)
+      type(box_t), intent(in) :: box
+      type(pose_t), intent(in) :: pose(:)
+      logical, intent(in) :: moves(:)          ! (solids)
+      integer, intent(in) :: k
+      type(state_t), intent(inout) :: state
+      real(dp) :: place(2), velocity(2), acceleration(2), pull(2), area
+
+      place = far_away
+      velocity = 0
+      pull = 0
+      area = 0
+      if (self%strips%point_of(k) > 0) then
+         associate (cell => self%drawn(self%strips%point_of(k)))
+            place = cell%place
+            area = cell%area
+            if (moves(cell%solid)) then
+               call move_cell(cell, solids(cell%solid)%pivot, pose(cell%solid), box, place, velocity, acceleration, area)
+               pull = turn(pose(cell%solid)%angle, cell%normal)
+               pull = dot_product(acceleration, pull)*pull
+            end if
+         end associate
+      end if
+      self%pull_x(k) = pull(1)
+      self%pull_y(k) = pull(2)
+      self%place(:, k) = place
+      associate (i => self%before + k)
          state%x(i) = place(1)
          state%y(i) = place(2)
          state%u(i) = velocity(1)
          state%v(i) = velocity(2)
          state%s(i) = 0
          state%volume(i) = area
-      end do
-      !$omp end parallel do
-   end subroutine move_ghosts
+      end associate
+   end subroutine move_ghost
 
    !> Which part a particle has in a ghost that is one of several of its cell: they act on each other if the way to the ghost first
    !! leads through its face; the ghost has its pressure also of particles that come through faces that do not look the other way.
