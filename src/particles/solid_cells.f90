@@ -1,7 +1,7 @@
 !> Cells of solids: each stands for a part of the volume, and is where a ghost is.
 !!
-!! Source: ours (docs/equations.md, Solid bodies). A cell is what the solid covers of a square of a lattice, about dx wide; its ghost
-!! stands at its centroid. Walls of the box cut it off. Where fluid comes near to a cell through faces that look in opposite
+!! Source: ours (docs/equations.md, Solid bodies). A cell is what the solid covers of a square of a lattice, about dx wide; its
+!! ghost stands at its centroid. Walls of the box cut it off. Where fluid comes near to a cell through faces that look in opposite
 !! directions, as in a thin plate, there is a ghost for each face.
 module solid_cells
    use box, only: axis_of, box_t, is_wall
@@ -49,8 +49,8 @@ contains
       cells(:) = found(:n)
    end subroutine find_cells
 
-   ! Squares as wide as is nearest to dx fill the box around a solid, which is turned as the solid was when it was drawn: so they fit
-   ! to a rectangle.
+   ! Squares as wide as is nearest to dx fill the box around a solid, which is turned as the solid was when it was drawn: so they
+   ! fit to a rectangle.
    subroutine add_solid(solid, number, box, lengths, found, n)
       type(solid_t), intent(in) :: solid
       integer, intent(in) :: number
