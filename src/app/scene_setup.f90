@@ -44,6 +44,7 @@ contains
       model%centre = scene%force%centre
       model%viscosity = scene%fluid%viscosity
       model%box = set_up_box(scene)
+      model%held_axes = merge(0.0_dp, 1.0_dp, [scene%domain%left, scene%domain%bottom] == 'periodic')
       if (allocated(scene%solids)) then
          allocate (model%solids(size(scene%solids)))
          model%solids(:) = set_up_solids(scene)

@@ -141,7 +141,7 @@ contains
             state%first_step = state%step%step
             if (.not. beginning%forked) return
             call state%recorder%begin_anew()
-            call check_box(model%box%after(state%step%time), state%p, problem)
+            call check_box(model%box_at(state%step%time), state%p, problem)
          end if
       end if
       if (state%step%scattered) call problem%raise(exit_numerics, &

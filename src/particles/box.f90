@@ -7,7 +7,7 @@ module box
    implicit none
    private
 
-   public :: box_t, find_bounds, is_wall, reflect, wrap
+   public :: box_t, inertia_t, find_bounds, is_wall, reflect, wrap
 
    integer, parameter, public :: left_wall = 1, right_wall = 2, bottom_wall = 3, top_wall = 4
    integer, parameter, public :: axis_of(4) = [1, 1, 2, 2]      !! that a side is across
@@ -19,6 +19,16 @@ module box
    integer, parameter, public :: no_slip_wall = 2     !! one that the viscous terms see the tangential velocity reversed beyond
    integer, parameter, public :: periodic_side = 3    !! the same line as the opposite side
 
+   !> What acts on the fluid because the box itself is moved, as it sees it: besides what would act if it stood.
+   type :: inertia_t
+      real(dp) :: pull(2) = 0     !! [m/s2] the same everywhere
+      real(dp) :: spin = 0        !! [rad/s] of the box, counter-clockwise
+      real(dp) :: spin_rate = 0   !! [rad/s2]
+      real(dp) :: centre(2) = 0   !! [m] that it turns about
+   contains
+      procedure :: at => inertia_at
+   end type inertia_t
+
    !> The sides in the order left, right, bottom, top, at one time.
    type :: box_t
       real(dp) :: time = 0                 !! [s] that it is for
@@ -26,6 +36,7 @@ module box
       real(dp) :: at(4) = 0                !! [m] x of left and right, y of bottom and top
       real(dp) :: velocity(2, 4) = 0       !! [m/s] of a wall's surface
       real(dp) :: density_slope(2) = 0     !! [kg/m4] rho0 g/c0**2, the gradient of rho across walls; 0 for the pure mirror
+      type(inertia_t) :: inertia           !! where the box is moved
    contains
       procedure :: after
       procedure :: normal_velocity
@@ -51,6 +62,16 @@ contains
       later%time = self%time + time
       later%at = self%at + time*self%normal_velocity()
    end function after
+
+   !> Centrifugal, Euler and Coriolis force, and what acts everywhere [m/s2].
+   pure function inertia_at(self, place, velocity) result(force)
+      class(inertia_t), intent(in) :: self
+      real(dp), intent(in) :: place(2), velocity(2)   !! in the box [m], as it sees it [m/s]
+      real(dp) :: force(2), arm(2)
+
+      arm = place - self%centre
+      force = self%pull + self%spin**2*arm + self%spin_rate*[arm(2), -arm(1)] + 2*self%spin*[velocity(2), -velocity(1)]
+   end function inertia_at
 
    !> Velocity of each side along the axis that it is across [m/s].
    pure function normal_velocity(self) result(velocity)

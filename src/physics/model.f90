@@ -5,6 +5,7 @@ module model
    use kernel, only: kernel_t
    use kinds, only: dp
    use linear_stability, only: stability_t
+   use motions, only: motion_t, pose_t, turn
    use solids, only: solid_t
    implicit none
    private
@@ -14,7 +15,8 @@ module model
    !> Which terms act in a scene: what is computed and kept, what the energy budget consists of, what is reported.
    type :: terms_t
       logical :: gravity = .false.
-      logical :: force = .false.         !! a uniform force besides gravity; W_f
+      logical :: force = .false.         !! a uniform force besides gravity, or the box is moved; W_f
+      logical :: tank = .false.          !! the box is moved
       logical :: central = .false.       !! a central force
       logical :: potential = .false.     !! gravity or a central force; E_P
       logical :: walls = .false.         !! W_s
@@ -38,6 +40,9 @@ module model
       real(dp) :: rho0 = 0            !! [kg/m3] density at p = 0
       real(dp) :: gravity = 0         !! [m/s2] along -y
       real(dp) :: acceleration(2) = 0 !! [m/s2] of a uniform force besides gravity
+      type(motion_t) :: tank          !! how the box is moved
+      real(dp) :: tank_pivot(2) = 0   !! [m] that it turns about
+      real(dp) :: held_axes(2) = 1    !! 1 for axes along which pressure holds the fluid, else 0
       real(dp) :: central_rate = 0    !! [1/s] w of a central force -w**2 (r - centre)
       real(dp) :: centre(2) = 0
       logical :: dynamic = .false.    !! alpha_i and delta_i from the rate of strain
@@ -58,6 +63,7 @@ module model
       procedure :: advective_limit
       procedure :: longest_step
       procedure :: terms
+      procedure :: box_at
       procedure :: has_solids
       procedure :: has_force
       procedure :: force_at
@@ -99,7 +105,8 @@ contains
       class(model_t), intent(in) :: self
 
       terms%gravity = self%gravity > 0
-      terms%force = self%has_force()
+      terms%force = self%has_force() .or. self%tank%moves()
+      terms%tank = self%tank%moves()
       terms%central = self%central_rate > 0
       terms%potential = terms%gravity .or. terms%central
       terms%walls = any(is_wall(self%box%kind))
@@ -112,6 +119,26 @@ contains
       terms%eddies = self%dynamic
       terms%rotation = self%viscosity > 0
    end function terms
+
+   !> The box at a time, and what acts in it because it is moved: gravity as it sees it, less gravity along -y, and inertia.
+   pure type(box_t) function box_at(self, time) result(box)
+      class(model_t), intent(in) :: self
+      real(dp), intent(in) :: time   !! [s]
+      type(pose_t) :: pose
+
+      box = self%box%after(time)
+      if (.not. self%tank%moves()) return
+      pose = self%tank%at(time)
+      associate (inertia => box%inertia, weight => [0.0_dp, -self%gravity])
+         inertia%spin = pose%spin
+         inertia%spin_rate = pose%spin_rate
+         inertia%centre = self%tank_pivot
+         inertia%pull = turn(-pose%angle, weight - pose%acceleration) - weight
+         ! Images are far less from a wall than the pivot is: the slope is that in the middle of the box.
+         if (any(abs(box%density_slope) > 0)) box%density_slope = box%density_slope + self%rho0/self%c0**2*self%held_axes &
+            *inertia%at([box%at(1) + box%at(2), box%at(3) + box%at(4)]/2, [0.0_dp, 0.0_dp])
+      end associate
+   end function box_at
 
    !> Whether there are bodies in the fluid.
    pure logical function has_solids(self)

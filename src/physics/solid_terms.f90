@@ -39,7 +39,7 @@ contains
       do b = 1, near%ghosts%n_blocks
          associate (block => near%ghosts%fluid(b))
             call sum_ghosts(model%kernel, near%ghosts, b, state, near%images, box, sums)
-            call take_pressure(model, near, nl*block%n_clusters, block%before, sums, state)
+            call take_pressure(model, box, near, nl*block%n_clusters, block%before, sums, state)
          end associate
       end do
       !$omp end parallel do
@@ -47,8 +47,9 @@ contains
    end subroutine meet_solids
 
    ! s_b = sum_f c_fb (s_f + rho0/c0**2 (g - (A.n) n).r), q_b, F_b and -F_b.U.
-   subroutine take_pressure(model, near, n, i0, sums, state)
+   subroutine take_pressure(model, box, near, n, i0, sums, state)
       type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box
       type(neighbours_t), intent(inout) :: near
       integer, intent(in) :: n, i0             ! ghosts of the block; slot before its first
       type(ghost_sums_t), intent(in) :: sums
@@ -62,6 +63,8 @@ contains
          if (model%kernel%value_factor*sums%weight(k) > least_weight) inverse = 1/sums%weight(k)
          slope = model%rho0/model%c0**2*(model%acceleration - [0.0_dp, model%gravity] &
                                          - [near%ghosts%pull_x(m), near%ghosts%pull_y(m)])
+         if (sums%weight(k) > 0) slope = slope + model%rho0/model%c0**2 &
+            *box%inertia%at([state%x(i0 + k), state%y(i0 + k)], [state%u(i0 + k), state%v(i0 + k)])
          s = (sums%density(k) + slope(1)*sums%way_x(k) + slope(2)*sums%way_y(k))*inverse
          state%s(i0 + k) = s
          near%ghosts%exchange(m) = state%volume(i0 + k)*sums%inflow(k)*inverse

@@ -15,7 +15,8 @@ module blocks
    type :: moment_t
       integer :: stage = 1   !! of the model's integrator
       real(dp) :: dt = 0     !! [s] length of the step
-      type(box_t) :: box     !! at the stage's time
+      type(box_t) :: box         !! at the stage's time,
+      type(box_t) :: last_box    !! at the end of the step
       type(obstacle_t), allocatable :: obstacles(:)   !! solids at the end of the step, where there are any
    end type moment_t
 

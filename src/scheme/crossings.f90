@@ -17,13 +17,14 @@ module crossings
 contains
 
    !> Puts back what got into solids.
-   pure subroutine leave_solids(model, obstacles, p, i0, n, sums)
+   pure subroutine leave_solids(model, box, obstacles, p, i0, n, sums)
       type(model_t), intent(in) :: model
+      type(box_t), intent(in) :: box                 ! at the end of the step
       type(obstacle_t), intent(in) :: obstacles(:)   ! at the end of the step
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), lifted
+      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), besides(2), lifted
       integer :: i, k, g
 
       lower = minval(reshape([(obstacles(k)%lower, k=1, size(obstacles))], [2, size(obstacles)]), 2)
@@ -35,10 +36,11 @@ contains
          if (k == 0) cycle
          place = before
          velocity = [p%next%u(i), p%next%v(i)]
-         call push_out(obstacles(k), model%force_at(before), place, velocity)
+         besides = model%acceleration + box%inertia%at(before, velocity)
+         call push_out(obstacles(k), model%force_at(before) + besides - model%acceleration, place, velocity)
          impulse = p%m(i)*([p%next%u(i), p%next%v(i)] - velocity)
          ! What the uniform force gave is not in the positions, as gravity's energy is.
-         lifted = p%m(i)*dot_product(model%acceleration, place - before)
+         lifted = p%m(i)*dot_product(besides, place - before)
          g = 1 + (i - i0 - 1)/group_slots
          sums%work(g, 4) = sums%work(g, 4) + lifted
          sums%crossings = sums%crossings + 1
@@ -63,7 +65,7 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2)
+      real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2), inertia(2)
       logical :: crossed
       integer :: i, g
 
@@ -76,13 +78,14 @@ contains
          place = before
          velocity = [p%next%u(i), p%next%v(i)]
          at_wall = min(max(before, box%at([left_wall, bottom_wall])), box%at([right_wall, top_wall]))
-         call reflect(box, model%force_at(at_wall), place, velocity, crossed)
+         inertia = box%inertia%at(at_wall, velocity)
+         call reflect(box, model%force_at(at_wall) + inertia, place, velocity, crossed)
          if (crossed) then
             sums%crossings = sums%crossings + 1
             sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
             ! What the uniform force gave is not in the positions, as gravity's energy is.
             g = 1 + (i - i0 - 1)/group_slots
-            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration, place - before)
+            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration + inertia, place - before)
          end if
          if (any(box%is_periodic([1, 2]))) then
             call wrap(box, place)

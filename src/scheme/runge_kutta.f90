@@ -52,11 +52,12 @@ contains
          ahead = scheme%ahead(stage)*moment%dt
          sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
          call add_terms(model, p, i0, n, weight, now, rates, sums%work)
+         if (has_inertia(moment%box)) call add_inertia(moment%box, n, weight, now, rates, sums%work(:, 4))
          if (model%has_solids()) sums%solid_work = sums%solid_work + weight*sums%solid_power
          if (stage == scheme%stages) then
             call end_step(scheme%share, weight, p, i0, n, now, rates)
-            if (allocated(moment%obstacles)) call leave_solids(model, moment%obstacles, p, i0, n, sums)
-            call finish_block(model, moment%box%after((1 - scheme%time_of(stage))*moment%dt), p, i0, n, sums)
+            if (allocated(moment%obstacles)) call leave_solids(model, moment%last_box, moment%obstacles, p, i0, n, sums)
+            call finish_block(model, moment%last_box, p, i0, n, sums)
          else if (stage < 3) then
             call go_on(p%base, i0, n, ahead, model%rho0, now, rates, p%stage(stage))
          else
@@ -180,6 +181,33 @@ contains
          work(g) = work(g) + weight*sum(quarter)
       end do
    end subroutine add_groups
+
+   ! Whether the box is moved.
+   pure logical function has_inertia(box)
+      type(box_t), intent(in) :: box
+
+      has_inertia = any(abs([box%inertia%pull, box%inertia%spin, box%inertia%spin_rate]) > 0)
+   end function has_inertia
+
+   ! What acts because the box is moved.
+   pure subroutine add_inertia(box, n, weight, now, rates, work)
+      type(box_t), intent(in) :: box
+      integer, intent(in) :: n
+      real(dp), intent(in) :: weight         !! dt b_k
+      type(stage_t), intent(in) :: now
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(inout) :: work(n/group_slots)
+      real(dp) :: force(2), x(n), y(n)
+      integer :: k
+
+      do k = 1, n
+         force = 0
+         if (now%m(k) > 0) force = box%inertia%at([now%x(k), now%y(k)], [now%u(k), now%v(k)])
+         x(k) = force(1)
+         y(k) = force(2)
+      end do
+      call add_force(n, weight, now, x, y, rates, work)
+   end subroutine add_inertia
 
    ! -w**2 (r - centre); nothing for dummies, which are far away.
    pure subroutine add_central_force(model, now, n, rates)

@@ -47,9 +47,9 @@ contains
       if (sorts_next(near, run)) then
          call find_neighbours(model, p, near, run, plan_next(model, near, run))
       else
-         call keep_order(near, p, model%box%after(run%time), run%dt)
-         if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
-         call meet_solids(model, model%box%after(run%time), near, p%base)
+         call keep_order(near, p, model%box_at(run%time), run%dt)
+         if (p%features%no_slip) call fill_slip(near%images, model%box_at(run%time), p)
+         call meet_solids(model, model%box_at(run%time), near, p%base)
       end if
       call timers%stop(phase_sort)
    end subroutine refresh
@@ -100,13 +100,13 @@ contains
       near%age = plan%age
       near%slack = plan%slack
       near%slack_time_2 = plan%slack_time_2
-      call sort_particles(near, p, model%kernel, model%box%after(run%time), model%dx, plan%span, run%scattered, &
+      call sort_particles(near, p, model%kernel, model%box_at(run%time), model%dx, plan%span, run%scattered, &
                           model%solids)
       if (run%scattered) return
       run%sorted = run%sorted + 1
-      if (p%features%no_slip) call fill_slip(near%images, model%box%after(run%time), p)
+      if (p%features%no_slip) call fill_slip(near%images, model%box_at(run%time), p)
       call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
-      call meet_solids(model, model%box%after(run%time), near, p%base)
+      call meet_solids(model, model%box_at(run%time), near, p%base)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`. With the step's sums goes what processes want each
@@ -158,7 +158,7 @@ contains
          call make_room(model, p, near, run, blocks, enough, all, timers)
          deallocate (blocks)
          if (run%scattered) return
-         call meet_solids(model, model%box%after(run%time), near, p%base)
+         call meet_solids(model, model%box_at(run%time), near, p%base)
       end do
       if (present(notes)) notes = told
       call collect(model, near, run, last_time, all, blocks)
@@ -230,7 +230,7 @@ contains
          call widen_margins(near, model%integrator%ahead(stage)*run%dt, blocks%change(stage), blocks%change(1))
          call list_neighbours(near, p, model%kernel, near%travel)
          ! Terms that are not frozen have left those of the last stage.
-         if (p%features%no_slip .and. .not. model%frozen) call fill_slip(near%images, model%box%after(run%time), p)
+         if (p%features%no_slip .and. .not. model%frozen) call fill_slip(near%images, model%box_at(run%time), p)
          call timers%stop(phase_sort)
       else
          call sort_again(model, p, near, run, timers)
@@ -289,9 +289,10 @@ contains
       integer :: k, stage
 
       do stage = 1, model%integrator%stages
-         moment = moment_t(stage, run%dt, model%box%after(run%time + model%integrator%time_of(stage)*run%dt))
+         moment = moment_t(stage, run%dt, model%box_at(run%time + model%integrator%time_of(stage)*run%dt), &
+                           model%box_at(run%time + run%dt))
          if (stage == model%integrator%stages .and. model%has_solids()) &
-            moment%obstacles = [(new_obstacle(model%solids(k), model%box%after(run%time + run%dt)), k=1, size(model%solids))]
+            moment%obstacles = [(new_obstacle(model%solids(k), moment%last_box), k=1, size(model%solids))]
          if (stage == 1) then
             call timers%start(phase_diffusion)
             call first_stage(model, p, near, moment, blocks)
