@@ -124,11 +124,11 @@ contains
       real(dp), intent(in) :: times(2)           !! that positions are predicted ahead by, and that lists last before and after then
       real(dp), intent(in) :: slack              !! that a block may have
       type(box_t) :: then
-      real(dp) :: place(2, self%n), reach(4)
+      real(dp) :: x(self%n), y(self%n), reach(4)
       integer :: k
 
       then = box%after(times(1))
-      call predict_places(self, solids, then, place)
+      call predict_places(self, solids, then, x, y)
       self%strips%width = widths(1)
       self%strips%bin_height = widths(2)
       self%strips%origin = box%at(1)
@@ -137,7 +137,7 @@ contains
          if (solids(k)%motion%moves()) self%creep = max(self%creep, creep_of(solids(k), box))
       end do
       self%before = p%n_slots
-      call sort_into_strips(self%strips, self%n, [(k, k=1, self%n)], place(1, :), place(2, :), self%before + 1, .true.)
+      call sort_into_strips(self%strips, self%n, [(k, k=1, self%n)], x, y, self%before + 1, .true.)
       self%n_slots = self%strips%n_slots
       p%n_slots = self%before + self%n_slots
       call reserve_slots(p, p%n_slots + group_slots)
@@ -158,7 +158,7 @@ contains
          self%stick(k) = 0
          self%x(k) = far_away
          if (self%solid_of(k) == 0) cycle
-         self%x(k) = place(1, self%strips%point_of(k))
+         self%x(k) = x(self%strips%point_of(k))
          self%stick(k) = merge(1.0_dp, 0.0_dp, solids(self%solid_of(k))%no_slip)
       end do
       call mirror_field(self, self%stick)
@@ -177,13 +177,13 @@ contains
    end function creep_of
 
    ! Where the ghosts are at the box's time.
-   subroutine predict_places(self, solids, box, place)
+   subroutine predict_places(self, solids, box, x, y)
       type(solid_ghosts_t), intent(in) :: self
       type(solid_t), intent(in) :: solids(:)
       type(box_t), intent(in) :: box
-      real(dp), intent(out) :: place(2, self%n)
+      real(dp), intent(out) :: x(self%n), y(self%n)
       type(pose_t) :: pose(size(solids))
-      real(dp) :: velocity(2), acceleration(2)
+      real(dp) :: place(2), velocity(2), acceleration(2)
       integer :: k
 
       do k = 1, size(solids)
@@ -191,7 +191,9 @@ contains
       end do
       do k = 1, self%n
          associate (ghost => self%drawn(k))
-            call move_point(pose(ghost%solid), solids(ghost%solid)%pivot, ghost%place, place(:, k), velocity, acceleration)
+            call move_point(pose(ghost%solid), solids(ghost%solid)%pivot, ghost%place, place, velocity, acceleration)
+            x(k) = place(1)
+            y(k) = place(2)
          end associate
       end do
    end subroutine predict_places
