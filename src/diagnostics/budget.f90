@@ -13,7 +13,8 @@ module budget
    use kinds, only: dp
    use model, only: model_t, terms_t
    use particles, only: particles_t
-   use rest_state, only: rest_energies
+   use rest_state, only: rest_energies, rest_energies_around
+   use solids, only: new_obstacle
    use step_state, only: step_t
    implicit none
    private
@@ -113,6 +114,7 @@ contains
       real(dp), intent(in) :: width   !! of the tank
       real(dp), parameter :: least_share = 1.0e-3_dp
       real(dp) :: mass, depth(1)   ! of the lowest particle, below y = 0
+      integer :: k
 
       self%has = model%terms()
       call measure_energies(model, p, self%initial)
@@ -125,7 +127,13 @@ contains
       call largest_of_all(1, depth)
       if (model%gravity > 0) self%normaliser = self%normaliser + mass*model%gravity*depth(1)
       if (self%has_rest) then
-         call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
+         if (model%has_solids()) then
+            call rest_energies_around([(new_obstacle(model%solids(k), model%box), k=1, size(model%solids))], &
+                                      model%box%at([left_wall, right_wall, bottom_wall]), mass, &
+                                      [model%rho0, model%c0, model%gravity], self%rest%potential, self%rest%elastic)
+         else
+            call rest_energies(mass, width, model%rho0, model%c0, model%gravity, self%rest%potential, self%rest%elastic)
+         end if
          self%rest%potential = self%rest%potential + mass*model%gravity*model%box%at(bottom_wall)
          if (self%initial%total() - self%rest%total() > least_share*self%normaliser) then
             self%normaliser = self%initial%total() - self%rest%total()
@@ -139,14 +147,15 @@ contains
       end if
    end subroutine start_budget
 
-   ! A floor, and walls or a period from left to right, hold the fluid when nothing but gravity acts. What is displaced by solids is
-   ! not known here.
+   ! A floor, and walls or a period from left to right, hold the fluid when nothing but gravity acts, and nothing moves in it.
    pure logical function can_rest(model)
       type(model_t), intent(in) :: model
+      integer :: k
 
       can_rest = model%gravity > 0 .and. model%box%has_wall(bottom_wall) &
                  .and. (model%box%is_periodic(1) .or. all(model%box%has_wall([left_wall, right_wall]))) &
-                 .and. .not. (model%central_rate > 0 .or. model%has_force() .or. model%has_solids())
+                 .and. .not. (model%central_rate > 0 .or. model%has_force() .or. model%tank%moves())
+      if (model%has_solids()) can_rest = can_rest .and. .not. any([(model%solids(k)%motion%moves(), k=1, size(model%solids))])
    end function can_rest
 
    ! What the normaliser is where there is no rest state, or too little to lose until it.
