@@ -144,13 +144,13 @@ contains
          pushed = 0
          if (.not. self%time < 0 .and. run%time > self%time) &
             pushed = (run%solids(3:5, k) - self%impulses(3*k - 2:3*k))/(run%time - self%time)
-         associate (solid => model%solids(k), name => trim(self%names(k)))
+         associate (solid => model%solids(k))
             pose = solid%motion%at(run%time)
-            if (solid%motion%moves()) call add_pose(name, pose, solid%pivot, row)
-            call add_forces(name, forces(k), pushed, solid%no_slip .and. has%viscosity, row)
+            if (solid%motion%moves()) call add_pose(trim(self%names(k)), pose, solid%pivot, row)
+            call add_forces(trim(self%names(k)), forces(k), pushed, solid%no_slip .and. has%viscosity, row)
             if (solid%motion%moves()) then
-               call row%add(name//'.power', 'power/width', forces(k)%power)
-               call row%add(name//'.work', 'energy/width', run%solids(1, k) + run%solids(6, k))
+               call row%add(trim(self%names(k))//'.power', 'power/width', forces(k)%power)
+               call row%add(trim(self%names(k))//'.work', 'energy/width', run%solids(1, k) + run%solids(6, k))
             end if
          end associate
       end do
