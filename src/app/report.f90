@@ -183,22 +183,21 @@ contains
    function not_written(scene) result(words)
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: words, message
-      type(cadence_t) :: energy, probes, errors, solids, walls, snapshots, checkpoint
+      type(cadence_t) :: energy, probes, errors, solids, snapshots, checkpoint
 
       ! The cadences' texts were checked with the input.
       call energy%parse(trim(scene%output%energy), message)
       call probes%parse(trim(scene%output%probes), message)
       call errors%parse(trim(scene%output%errors), message)
       call solids%parse(trim(scene%output%solids), message)
-      call walls%parse(trim(scene%output%walls), message)
       call snapshots%parse(trim(scene%output%snapshots), message)
       call checkpoint%parse(trim(scene%output%checkpoint), message, by_clock=.true.)
       words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'forces on solids', &
-                          'forces on walls', 'snapshots', 'checkpoints', 'dissipation field'], &
+                          'snapshots', 'checkpoints', 'dissipation field'], &
                          [energy%is_never(), size(scene%probes) == 0 .or. probes%is_never(), &
                           size(scene%gauges) == 0 .or. probes%is_never(), &
                           scene%exact%solution == 'none' .or. errors%is_never(), &
-                          size(scene%solids) > 0 .and. solids%is_never(), walls%is_never(), snapshots%is_never(), &
+                          size(scene%solids) > 0 .and. solids%is_never(), snapshots%is_never(), &
                           checkpoint%is_never(), .not. any(scene%output%fields(:scene%output%n_fields) == 'dissipation')])
    end function not_written
 
