@@ -49,6 +49,7 @@ module recorder
       type(time_scale_t) :: scale                 !! (not kept: of the scene)
       real(dp) :: probe_box(2) = 0     !! width of the box and height of the fluid at t = 0, for spectra (not kept: of the scene)
       type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks (not kept: measured before each use)
+      logical :: forks = .false.       !! it begins its tables anew from what is kept of another run (not kept: of the process)
       integer :: secured = 0           !! snapshots that are on the disk (not kept: of the process)
       real(dp) :: times(2) = 0         !! of the step before and of the last one recorded,
       integer :: step = -1             !! and its number
@@ -73,7 +74,8 @@ contains
       call self%series%archive(file)
       call self%errors%archive(file)
       call self%solids%archive(file)
-      call self%walls%archive(file)
+      ! A fork may have this table where the run that it is from has none.
+      if (.not. (file%reading .and. self%forks)) call self%walls%archive(file)
       call file%part('energy')
       call self%energy_table%archive(file)
       call file%part('probes')

@@ -132,6 +132,7 @@ contains
          call start_extremes(model, state%p, state%step)
          call state%recorder%start(scene, input_text, model, state%p)
          if (goes_on(beginning)) then
+            state%recorder%forks = beginning%forked
             if (beginning%file%particles == state%p%n) call state%archive(beginning%file)
             reason = beginning%file%missing()
             if (beginning%file%particles /= state%p%n) reason = 'it has another number of particles than the scene'
