@@ -187,7 +187,7 @@ contains
       call refresh(variant%model, p, near, run, timers)
       call variant%directory%clear(problem)
       call variant%recorder%start(variant%scene, '', variant%model, p)
-      call variant%recorder%open(variant%scene, variant%directory, only_check=.false., problem=problem)
+      call variant%recorder%open(variant%scene, variant%model, variant%directory, only_check=.false., problem=problem)
    end subroutine open_tables
 
    subroutine measure()

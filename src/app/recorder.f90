@@ -1,4 +1,4 @@
-!> Measures and writes what is due: energies, probes, errors and snapshots.
+!> Measures and writes what is due: energies, probes, errors, forces and snapshots.
 module recorder
    use archive, only: archive_t
    use budget, only: add_rotation, budget_t, start_budget, update_budget, works_of
@@ -19,14 +19,16 @@ module recorder
    use number_order, only: find_order, number_order_t
    use particles, only: particles_t
    use probes, only: measure_sensors, new_sensor, sensor_t
-   use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name
+   use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name, solids_name, walls_name
    use series, only: series_t
    use settings, only: settings_t
    use snapshot, only: snapshot_field, snapshot_head, write_snapshot
    use snapshot_fields, only: fill_fields
+   use solid_table, only: solid_table_t
    use step_state, only: step_t
    use table, only: table_t
    use time_scale, only: new_time_scale, time_scale_t
+   use wall_table, only: wall_table_t
    implicit none
    private
 
@@ -39,12 +41,15 @@ module recorder
       type(cadence_t) :: when_energy, when_probes, when_snapshot   !! (not kept: of the scene)
       type(table_t) :: energy_table, probe_table
       type(error_table_t) :: errors
+      type(solid_table_t) :: solids
+      type(wall_table_t) :: walls
       type(sensor_t), allocatable :: sensors(:)   !! (not kept: of the scene)
       type(gauge_t), allocatable :: gauges(:)     !! (not kept: of the scene)
       type(snapshot_head) :: head                 !! (not kept: of the scene)
       type(time_scale_t) :: scale                 !! (not kept: of the scene)
       real(dp) :: probe_box(2) = 0     !! width of the box and height of the fluid at t = 0, for spectra (not kept: of the scene)
       type(gradient_numbers_t) :: gradients   !! as often as energies, where the scene asks (not kept: measured before each use)
+      logical :: forks = .false.       !! it begins its tables anew from what is kept of another run (not kept: of the process)
       integer :: secured = 0           !! snapshots that are on the disk (not kept: of the process)
       real(dp) :: times(2) = 0         !! of the step before and of the last one recorded,
       integer :: step = -1             !! and its number
@@ -68,6 +73,9 @@ contains
       call self%budget%archive(file)
       call self%series%archive(file)
       call self%errors%archive(file)
+      call self%solids%archive(file)
+      ! A fork may have this table where the run that it is from has none.
+      if (.not. (file%reading .and. self%forks)) call self%walls%archive(file)
       call file%part('energy')
       call self%energy_table%archive(file)
       call file%part('probes')
@@ -84,6 +92,8 @@ contains
 
       call self%series%begin_anew()
       call self%errors%begin_anew()
+      call self%solids%begin_anew()
+      call self%walls%begin_anew()
       call self%energy_table%begin_anew()
       call self%probe_table%begin_anew()
    end subroutine begin_anew
@@ -124,12 +134,15 @@ contains
       call largest_of_all(1, top)
       if (model%box%has_wall(bottom_wall)) self%probe_box(2) = top(1) + model%dx/2 - scene%domain%lower(2)
       call self%errors%start(scene, model, p, self%scale)
+      call self%solids%start(scene, self%scale)
+      call self%walls%start(scene, model, self%scale)
    end subroutine start
 
    !> Opens the tables that the scene asks for, or looks whether those that were begun can go on.
-   subroutine open_tables(self, scene, directory, only_check, problem)
+   subroutine open_tables(self, scene, model, directory, only_check, problem)
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
       type(result_directory_t), intent(in) :: directory
       logical, intent(in) :: only_check
       type(failure), intent(inout) :: problem   !! exit_files
@@ -138,6 +151,8 @@ contains
       if (size(scene%probes) + size(scene%gauges) > 0 .and. .not. self%when_probes%is_never()) &
          call open_probes(self, scene, directory, only_check, problem)
       call self%errors%open(scene, directory%file(errors_name), only_check, problem)
+      call self%solids%open(scene, model, directory%file(solids_name), only_check, problem)
+      call self%walls%open(scene, model, directory%file(walls_name), only_check, problem)
    end subroutine open_tables
 
    subroutine open_energies(self, scene, directory, only_check, problem)
@@ -182,7 +197,7 @@ contains
       write (head(3), '(a, es23.16)') 'sound_speed: ', self%head%sound_speed
       write (head(4), '(a, es23.16)') 'domain_width: ', self%probe_box(1)
       write (head(5), '(a, es23.16)') 'fluid_height: ', self%probe_box(2)
-      head(6) = 'A pressure is the mean over a disc or segment on a wall; what is dry counts as 0.'
+      head(6) = 'A pressure is the mean over a disc or segment on a wall or solid; what is dry counts as 0.'
       do k = 1, n
          associate (probe => scene%probes(k))
             write (head(k + 6), '(3a, 2(es14.7, 1x), 2(a, es14.7))') 'probe ', trim(probe%name), ' at ', probe%position, &
@@ -207,8 +222,8 @@ contains
       class(recorder_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      type(particles_t), intent(in) :: p
-      type(neighbours_t), intent(in) :: near
+      type(particles_t), intent(inout) :: p      !! coefficients of the dynamic model may be set,
+      type(neighbours_t), intent(inout) :: near  !! and friction of solids: both are, at each step, before they are used
       type(step_t), intent(in) :: run
       type(result_directory_t), intent(in) :: directory
       logical, intent(in) :: last            !! the run ends here
@@ -222,6 +237,12 @@ contains
          call record_energies(self, model, p, near, run, problem)
       if (self%probe_table%is_open()) then
          if (due(self%when_probes)) call self%probe_table%row(probe_row(self, model, p, near, run%time), problem)
+      end if
+      if (self%solids%is_open()) then
+         if (due(self%solids%when)) call self%solids%record(model, near, p, run, problem)
+      end if
+      if (self%walls%is_open()) then
+         if (due(self%walls%when)) call self%walls%record(model, near, p, run%time, problem)
       end if
       call self%errors%record(model, p, run%step, run%time, self%times(1), last, problem)
       if (due(self%when_snapshot)) call self%save_snapshot(scene, model, p, near, run, directory, problem)
@@ -269,7 +290,7 @@ contains
 
       row(1) = time
       row(2) = time/self%scale%unit
-      row(3:2 + size(self%sensors)) = measure_sensors(model, p, near, self%sensors)
+      row(3:2 + size(self%sensors)) = measure_sensors(model, p, near, self%sensors, time)
       do k = 1, size(self%gauges)
          row(k + 2 + size(self%sensors)) = measure_gauge(model, p, near, self%gauges(k))
       end do
@@ -317,6 +338,8 @@ contains
       call self%energy_table%secure(problem)
       call self%probe_table%secure(problem)
       call self%errors%secure(problem)
+      call self%solids%secure(problem)
+      call self%walls%secure(problem)
    end subroutine secure
 
    !> Closes the tables.
@@ -329,6 +352,8 @@ contains
       call self%energy_table%close(problem)
       call self%probe_table%close(problem)
       call self%errors%finish(problem)
+      call self%solids%finish(problem)
+      call self%walls%finish(problem)
    end subroutine finish
 
 end module recorder

@@ -89,6 +89,8 @@ contains
          words = 'energy '//trim(output%energy)
          if (size(scene%probes) + size(scene%gauges) > 0) words = words//', probes '//trim(output%probes)
          if (scene%exact%solution /= 'none') words = words//', errors '//trim(output%errors)
+         if (size(scene%solids) > 0) words = words//', solids '//trim(output%solids)
+         if (output%walls /= 'never') words = words//', walls '//trim(output%walls)
          words = words//', snapshots '//trim(output%snapshots)//', checkpoint '//trim(output%checkpoint)
       end associate
    end function output_text
@@ -144,6 +146,7 @@ contains
          if (has%no_slip) words = words//', no slip ('//sides_text(kind == no_slip_wall)//')'
          if (has%periodic) words = words//', periodic ('//sides_text(kind == periodic_side)//')'
       end associate
+      if (has%solids) words = words//', '//solids_text(model)
       if (has%eddies) words = words//', strain rate'
       if (has%viscosity) words = words//', viscosity'
       if (has%diffusion) words = words//', density diffusion'
@@ -151,6 +154,17 @@ contains
       if (size(scene%probes) > 0) words = words//', '//to_text(size(scene%probes))//' probes'
       if (size(scene%gauges) > 0) words = words//', '//to_text(size(scene%gauges))//' gauges'
    end function used
+
+   ! Of a model that has some.
+   pure function solids_text(model) result(words)
+      type(model_t), intent(in) :: model
+      character(:), allocatable :: words
+      integer :: k
+
+      words = to_text(size(model%solids))//' solids'
+      if (size(model%solids) == 1) words = '1 solid'
+      if (any([(model%solids(k)%motion%moves(), k=1, size(model%solids))])) words = words//', moving solids'
+   end function solids_text
 
    ! Terms that the scene's steps neither compute nor have arrays for.
    function left_out(model) result(words)
@@ -160,28 +174,30 @@ contains
 
       has = model%terms()
       words = names_text([character(24) :: 'gravity', 'uniform force', 'central force', 'walls', 'no-slip', 'periodic sides', &
-                          'viscosity', 'density diffusion', 'dynamic coefficients'], &
-                         .not. [has%gravity, has%force, has%central, has%walls, has%no_slip, has%periodic, has%viscosity, &
-                                has%diffusion, has%eddies])
+                          'solids', 'viscosity', 'density diffusion', 'dynamic coefficients'], &
+                         .not. [has%gravity, has%force, has%central, has%walls, has%no_slip, has%periodic, has%solids, &
+                                has%viscosity, has%diffusion, has%eddies])
    end function left_out
 
    ! What is neither measured nor written.
    function not_written(scene) result(words)
       type(settings_t), intent(in) :: scene
       character(:), allocatable :: words, message
-      type(cadence_t) :: energy, probes, errors, snapshots, checkpoint
+      type(cadence_t) :: energy, probes, errors, solids, snapshots, checkpoint
 
       ! The cadences' texts were checked with the input.
       call energy%parse(trim(scene%output%energy), message)
       call probes%parse(trim(scene%output%probes), message)
       call errors%parse(trim(scene%output%errors), message)
+      call solids%parse(trim(scene%output%solids), message)
       call snapshots%parse(trim(scene%output%snapshots), message)
       call checkpoint%parse(trim(scene%output%checkpoint), message, by_clock=.true.)
-      words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'snapshots', 'checkpoints', &
-                          'dissipation field'], &
+      words = names_text([character(24) :: 'energies', 'probes', 'gauges', 'errors', 'forces on solids', &
+                          'snapshots', 'checkpoints', 'dissipation field'], &
                          [energy%is_never(), size(scene%probes) == 0 .or. probes%is_never(), &
                           size(scene%gauges) == 0 .or. probes%is_never(), &
-                          scene%exact%solution == 'none' .or. errors%is_never(), snapshots%is_never(), &
+                          scene%exact%solution == 'none' .or. errors%is_never(), &
+                          size(scene%solids) > 0 .and. solids%is_never(), snapshots%is_never(), &
                           checkpoint%is_never(), .not. any(scene%output%fields(:scene%output%n_fields) == 'dissipation')])
    end function not_written
 
@@ -263,6 +279,8 @@ contains
       words = ''
       if (budget%has%walls) words = words//'wall work '//short(budget%w_s/budget%normaliser)//', '
       if (budget%has%force) words = words//'work of the force '//short(budget%w_f/budget%normaliser)//', '
+      if (budget%has%solids) words = words//'work of solids ' &
+         //short((budget%w_solid + budget%w_stat + budget%w_pen)/budget%normaliser)//' (W_solid + W_stat + W_pen), '
       words = words//'largest balance error '//short(budget%largest_error)
    end function works_text
 
@@ -352,6 +370,9 @@ contains
          call file%add('energy_balance_error', b%largest_error)
          if (has%walls) call file%add('wall_work', b%w_s/de)
          if (has%force) call file%add('force_work', b%w_f/de)
+         if (has%solids) call file%add('W_solid', b%w_solid/de)
+         if (has%solids) call file%add('W_stat', b%w_stat/de)
+         if (has%solids) call file%add('W_pen', b%w_pen/de)
          if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
          if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
          if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)

@@ -8,6 +8,7 @@ module room
    use machine, only: available_memory, endless, free_space
    use run_log, only: log_t
    use settings, only: settings_t
+   use solid_table, only: solid_columns
    use text, only: short
    implicit none
    private
@@ -16,7 +17,7 @@ module room
 
    real(dp), parameter :: number_width = 25      !! letters of a number in a table
    real(dp), parameter :: checkpoint_bytes = 64  !! of a particle in each of the two
-   real(dp), parameter :: energy_columns = 30, error_columns = 10   !! about
+   real(dp), parameter :: energy_columns = 30, error_columns = 10, wall_columns = 8   !! about
 
 contains
 
@@ -33,6 +34,8 @@ contains
          call check_cadence('energy', output%energy)
          if (size(scene%probes) + size(scene%gauges) > 0) call check_cadence('probes', output%probes)
          if (scene%exact%solution /= 'none') call check_cadence('errors', output%errors)
+         if (size(scene%solids) > 0) call check_cadence('solids', output%solids)
+         call check_cadence('walls', output%walls)
          call check_cadence('snapshots', output%snapshots)
       end associate
       bytes = output_bytes(scene, costs)
@@ -76,6 +79,8 @@ contains
          if (size(scene%probes) + size(scene%gauges) > 0) &
             bytes = bytes + written(output%probes)*(2 + size(scene%probes) + size(scene%gauges))*number_width
          if (scene%exact%solution /= 'none') bytes = bytes + written(output%errors)*error_columns*number_width
+         if (size(scene%solids) > 0) bytes = bytes + written(output%solids)*solid_columns(scene%solids)*number_width
+         bytes = bytes + written(output%walls)*wall_columns*number_width
          if (output%checkpoint /= 'never') bytes = bytes + 2*costs%particles*checkpoint_bytes
       end associate
 

@@ -82,7 +82,7 @@ contains
       if (problem%raised()) return
       call saving%start(scene, beginning%input, beginning%origin, merge(1, 3 - beginning%turn, beginning%turn == 0), &
                         merge(beginning%file%number + 1, 0_i8, beginning%turn > 0))
-      call open_files(scene, input_text, beginning, state, saving, directory, log, problem)
+      call open_files(scene, model, input_text, beginning, state, saving, directory, log, problem)
       if (.not. problem%raised() .and. goes_on(beginning)) call sort_first(scene, model, beginning, state, timers, problem)
       if (problem%raised()) then
          call state%recorder%finish(directory, closing)
@@ -132,6 +132,7 @@ contains
          call start_extremes(model, state%p, state%step)
          call state%recorder%start(scene, input_text, model, state%p)
          if (goes_on(beginning)) then
+            state%recorder%forks = beginning%forked
             if (beginning%file%particles == state%p%n) call state%archive(beginning%file)
             reason = beginning%file%missing()
             if (beginning%file%particles /= state%p%n) reason = 'it has another number of particles than the scene'
@@ -185,8 +186,9 @@ contains
 
    ! From here on files change: an earlier result is deleted; where the run goes on, what was written behind the checkpoint, which
    ! comes again. A changed input is kept in a checkpoint first: a kill must not undo it.
-   subroutine open_files(scene, input_text, beginning, state, saving, directory, log, problem)
+   subroutine open_files(scene, model, input_text, beginning, state, saving, directory, log, problem)
       type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
       character(*), intent(in) :: input_text
       type(beginning_t), intent(in) :: beginning
       type(run_state_t), intent(inout) :: state
@@ -198,13 +200,13 @@ contains
       logical :: here   ! it goes on in its own directory
 
       here = beginning%turn > 0
-      if (here) call state%recorder%open(scene, directory, only_check=.true., problem=problem)
+      if (here) call state%recorder%open(scene, model, directory, only_check=.true., problem=problem)
       if (here .and. .not. problem%raised()) call directory%look_for_foreign(problem)
       if (.not. (here .or. problem%raised())) call directory%clear(problem)
       if (.not. problem%raised() .and. (beginning%changed .or. beginning%forked)) call saving%write(state, directory, problem)
       if (is_first() .and. .not. problem%raised()) call write_whole_file(directory%file(input_name), input_text, problem)
       call problem%tell()
-      if (.not. problem%raised()) call state%recorder%open(scene, directory, only_check=.false., problem=problem)
+      if (.not. problem%raised()) call state%recorder%open(scene, model, directory, only_check=.false., problem=problem)
       if (.not. problem%raised()) call log%open_file(directory%file(log_name), here, problem)
       if (problem%raised() .or. .not. here) return
       if (is_first()) call say_which_snapshots_lack(state%recorder%series%count(), directory, log)

@@ -6,7 +6,7 @@ module columns
 
    public :: columns_t
 
-   integer, parameter, public :: column_name_length = 32, column_unit_length = 48
+   integer, parameter, public :: column_name_length = 48, column_unit_length = 48
 
    !> Columns in the order in which they were added.
    type :: columns_t

@@ -8,6 +8,8 @@ module gradient_fields
    use eddy, only: eddy_coefficients, strain_rate, velocity_gradient, velocity_gradient_t
    use exact_sum, only: exact_totals
    use first_sums, only: first_sums_t, pass_dynamic, sum_first
+   use image_laws, only: as_scalar
+   use images, only: fill_ghosts
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
@@ -19,7 +21,7 @@ module gradient_fields
    implicit none
    private
 
-   public :: gradient_fields_t, measure_gradients, gradient_numbers_t, extent_t, sum_up
+   public :: gradient_fields_t, measure_gradients, gradient_numbers_t, extent_t, sum_up, renew_coefficients
 
    !> What follows from the velocity gradient, for every own slot.
    type :: gradient_fields_t
@@ -79,6 +81,19 @@ contains
          strain(k) = strain_rate(gradient)
       end do
    end subroutine take_fields
+
+   !> alpha_i and delta_i of the dynamic model at the base state, of all slots: those of the last step are of another one.
+   subroutine renew_coefficients(model, near, p)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(inout) :: near   !! of the base state
+      type(particles_t), intent(inout) :: p       !! alpha and delta are set
+      type(gradient_fields_t) :: fields
+
+      call measure_gradients(model, p, near, fields)
+      call eddy_coefficients(model, fields%strain, p%alpha(:p%n_own), p%delta(:p%n_own))
+      call fill_ghosts(near%images, as_scalar, p%alpha)
+      call fill_ghosts(near%images, as_scalar, p%delta)
+   end subroutine renew_coefficients
 
    !> Sums and extremes over the particles: exact sums over groups of slots, so that nothing but the particles matters.
    subroutine sum_up(model, p, fields, numbers)

@@ -4,8 +4,10 @@ module output_check
    use draft, only: draft_t
    use kinds, only: dp
    use name_table, only: name_table_t
+   use polygons, only: nearest_edge
    use scanner, only: letters
-   use settings, only: gauge_settings, is_wall, probe_settings
+   use settings, only: gauge_settings, is_wall, probe_settings, settings_t
+   use solid_outlines, only: solid_outline
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -30,7 +32,7 @@ contains
          call check_cadence(draft, 'checkpoint', output%checkpoint)
          if (draft%notes%clean('output model') .and. draft%scene%model%diffusion /= 'dynamic') call check_fields(draft)
          do i = 1, size(probes)
-            if (draft%notes%clean('probe scene domain')) call check_probe(draft, probes(i), i)
+            if (draft%notes%clean('probe scene domain solid')) call check_probe(draft, probes(i), i)
             call check_name(draft, 'probe', i, trim(probes(i)%name), columns)
          end do
          do i = 1, size(gauges)
@@ -66,12 +68,12 @@ contains
       end do
    end subroutine check_fields
 
-   !> A probe must lie at a wall, all of it within the box.
+   !> A probe must lie at a wall, all of it within the box, or on the face of a solid as drawn.
    subroutine check_probe(draft, probe, number)
       type(draft_t), intent(inout) :: draft
       type(probe_settings), intent(in) :: probe
       integer, intent(in) :: number
-      real(dp) :: distance(4), half_spacing, margin, room
+      real(dp) :: distance(4), gap(2), half_spacing, margin, room
       logical :: walls(4)
       character(:), allocatable :: problem
       integer :: along
@@ -86,7 +88,15 @@ contains
       if (minval(distance([2, 4]), walls([2, 4])) < minval(distance([1, 3]), walls([1, 3]))) along = 1
       room = min(distance(along), distance(along + 2))   ! for half of it
       problem = ''
-      if (.not. any(walls)) then
+      gap = gaps_to_solids(draft%scene, probe)
+      if (gap(1) < minval(distance, walls) .and. .not. any(distance < -margin)) then
+         if (gap(1) > half_spacing + margin) then
+            problem = 'lies '//short(gap(1))//' m from the nearest solid, more than dx/2 = '//short(half_spacing) &
+                      //'; put it on the face of one, where it is drawn, or on a wall'
+         else if (gap(2) > half_spacing + margin) then
+            problem = 'reaches '//short(gap(2))//' m beside its solid; make it shorter'
+         end if
+      else if (.not. any(walls)) then
          problem = 'needs a wall, and all sides of &domain are open'
       else if (any(distance < -margin)) then
          problem = 'lies outside the box'
@@ -103,6 +113,37 @@ contains
          call draft%mistake('probe', number, 'length', '&probe has a diameter and a length; it is either a disc or a segment: ' &
                             //'give one of them')
    end subroutine check_probe
+
+   ! How far a probe is from the nearest solid as drawn, and the farther one of its ends from that; huge without solids.
+   pure function gaps_to_solids(scene, probe) result(gaps)
+      type(settings_t), intent(in) :: scene
+      type(probe_settings), intent(in) :: probe
+      real(dp) :: gaps(2), of_one(2)
+      integer :: i
+
+      gaps = huge(gaps)
+      do i = 1, size(scene%solids)
+         of_one = gaps_to(solid_outline(scene, scene%solids(i)), probe)
+         if (of_one(1) < gaps(1)) gaps = of_one
+      end do
+   end function gaps_to_solids
+
+   pure function gaps_to(outline, probe) result(gaps)
+      real(dp), intent(in) :: outline(:, :)   ! (2, n)
+      type(probe_settings), intent(in) :: probe
+      real(dp) :: gaps(2), foot(2), normal(2), along(2), unused(4), gap
+      logical :: counts(size(outline, 2))
+      integer :: edge, k
+
+      counts = .true.
+      call nearest_edge(outline, counts, probe%position, edge, gaps(1), foot, normal)
+      along = [-normal(2), normal(1)]*max(probe%diameter, probe%length)/2
+      gaps(2) = 0
+      do k = -1, 1, 2
+         call nearest_edge(outline, counts, probe%position + k*along, edge, gap, unused(:2), unused(3:))
+         gaps(2) = max(gaps(2), gap)
+      end do
+   end function gaps_to
 
    !> A gauge must pass through the box.
    subroutine check_gauge(draft, gauge, number)

@@ -309,9 +309,10 @@ contains
       case ('probe')
          associate (probe => scene%probes(number))
             call keys%add(key_t('name', 'Name of its column: letters, digits, _ and -.', required=.true.), probe%name)
-            call keys%add(key_t('position', 'Its centre on a wall, x and y.', 'm', required=.true., vector=probe%position))
+            call keys%add(key_t('position', 'Its centre on a wall, or on a solid where it is drawn, x and y.', 'm', &
+                                required=.true., vector=probe%position))
             call keys%add(key_t('diameter', 'Diameter of its disc. 0: not a disc.', 'm', not_negative, number=probe%diameter))
-            call keys%add(key_t('length', 'Length of its segment along the wall. 0: not a segment; without a diameter too, a '// &
+            call keys%add(key_t('length', 'Length of its segment along that. 0: not a segment; without a diameter too, a '// &
                                 'point.', 'm', not_negative, number=probe%length))
          end associate
       case ('gauge')

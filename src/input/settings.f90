@@ -158,10 +158,10 @@ module settings
       character(name_length) :: checkpoint = '10 minutes'
    end type output_settings
 
-   !> &probe: a pressure sensor on a wall.
+   !> &probe: a pressure sensor on a wall or a solid.
    type :: probe_settings
       character(name_length) :: name = ''
-      real(dp) :: position(2) = [0.0_dp, 0.0_dp]   !! centre, on a wall [m]
+      real(dp) :: position(2) = [0.0_dp, 0.0_dp]   !! centre [m]
       real(dp) :: diameter = 0.0_dp                !! of its disc; 0: not a disc [m]
       real(dp) :: length = 0.0_dp                  !! of its segment; 0: not a segment [m]
    end type probe_settings

@@ -16,6 +16,8 @@ module result_directory
    character(*), parameter, public :: energy_name = 'energy.dat'
    character(*), parameter, public :: probes_name = 'probes.dat'
    character(*), parameter, public :: errors_name = 'errors.dat'
+   character(*), parameter, public :: solids_name = 'solids.dat'
+   character(*), parameter, public :: walls_name = 'walls.dat'
    character(*), parameter, public :: summary_name = 'summary.txt'
    character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
    character(*), parameter, public :: checkpoint_names(2) = ['checkpoint_a.h5', 'checkpoint_b.h5']   !! in turn
@@ -27,7 +29,7 @@ module result_directory
 
    !> Everything dynsph writes and may therefore delete, as shell patterns.
    character(*), parameter :: own_files(*) = [character(64) :: checkpoint_names, log_name, energy_name, probes_name, summary_name, &
-      errors_name, series_name, any_snapshot, input_name, &   ! by the last one the others are known
+      errors_name, solids_name, walls_name, series_name, any_snapshot, input_name, &   ! by the last one the others are known
       input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial', &
       checkpoint_names//'.partial']
 

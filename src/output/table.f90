@@ -299,14 +299,12 @@ contains
       call problem%raise(exit_files, "cannot write '"//self%path//"': "//words)
    end subroutine complain
 
-   !> A column name above the last digit of its numbers; the first column begins with blanks too.
+   !> A column name above the last digit of its numbers; the first column begins with blanks too. A long one takes more room.
    pure function right_aligned(name) result(cell)
       character(*), intent(in) :: name
-      character(column_width) :: cell
+      character(:), allocatable :: cell
 
-      cell = trim(name)
-      cell = adjustr(cell)
-      if (len_trim(name) >= column_width) cell = ' '//name
+      cell = repeat(' ', max(1, column_width - len_trim(name)))//trim(name)
    end function right_aligned
 
 end module table

@@ -23,7 +23,7 @@ endforeach()
 
 # Suites of what ranks do together, which are among the fast tests with one process. Others know nothing of ranks, or look at slots.
 foreach(suite IN ITEMS communication diffusion dissipation dynamic_steps energy features forces no_slip order periodic probes
-        search_margins time_step vortex_start)
+        search_margins solid_forces time_step vortex_start wall_forces)
    foreach(n IN ITEMS 2 3)
       add_test(NAME ranks_${n}_test_${suite} COMMAND ${launcher} ${n} $<TARGET_FILE:test_${suite}>)
       set_tests_properties(ranks_${n}_test_${suite} PROPERTIES PROCESSORS 2 TIMEOUT 120
