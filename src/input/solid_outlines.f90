@@ -3,12 +3,12 @@ module solid_outlines
    use kinds, only: dp
    use motions, only: motion_t, move_point, oscillating, pose_t, tabulated, uniform
    use polygons, only: polygon_centroid, regular_polygon, turned
-   use settings, only: settings_t, solid_settings
+   use settings, only: motion_settings, settings_t, solid_settings
    use smooth_tables, only: new_smooth_table
    implicit none
    private
 
-   public :: solid_outline, starting_outline, solid_motion, shape_centroid, solid_radius
+   public :: solid_outline, starting_outline, motion_of, shape_centroid, solid_radius
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: degree = pi/180
@@ -38,7 +38,7 @@ contains
       integer :: k
 
       vertices = solid_outline(scene, solid)
-      motion = solid_motion(solid)
+      motion = motion_of(solid)
       pose = motion%at(0.0_dp)
       do k = 1, size(vertices, 2)
          call move_point(pose, solid%pivot, vertices(:, k), place, velocity, acceleration)
@@ -46,30 +46,30 @@ contains
       end do
    end function starting_outline
 
-   !> How a solid moves from where it is drawn.
-   pure type(motion_t) function solid_motion(solid) result(motion)
-      type(solid_settings), intent(in) :: solid   !! with its table, if it follows one
+   !> How a solid, or the tank, moves from where it is drawn.
+   pure type(motion_t) function motion_of(moved) result(motion)
+      class(motion_settings), intent(in) :: moved   !! with its table, if it follows one
       real(dp), allocatable :: rows(:, :)
 
-      select case (solid%motion)
+      select case (moved%motion)
       case ('uniform')
          motion%kind = uniform
-         motion%velocity = solid%velocity
-         motion%spin = solid%spin*degree
+         motion%velocity = moved%velocity
+         motion%spin = moved%spin*degree
       case ('oscillation')
          motion%kind = oscillating
-         motion%amplitude = solid%amplitude
-         motion%swing = solid%swing*degree
-         motion%period = solid%period
-         motion%phase = solid%phase*degree
-         motion%ramp = solid%ramp
+         motion%amplitude = moved%amplitude
+         motion%swing = moved%swing*degree
+         motion%period = moved%period
+         motion%phase = moved%phase*degree
+         motion%ramp = moved%ramp
       case ('table')
          motion%kind = tabulated
-         rows = transpose(reshape(solid%table%values, [4, solid%table%n()/4]))
+         rows = transpose(reshape(moved%table%values, [4, moved%table%n()/4]))
          rows(:, 4) = rows(:, 4)*degree
          motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
       end select
-   end function solid_motion
+   end function motion_of
 
    !> Centroid of a solid's shape, not turned [m].
    pure function shape_centroid(scene, solid) result(centre)
