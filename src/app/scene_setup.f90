@@ -17,7 +17,7 @@ module scene_setup
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
    use solution_register, only: new_solution
-   use solid_outlines, only: solid_motion, solid_outline
+   use solid_outlines, only: motion_of, solid_outline
    use solids, only: new_obstacle, obstacle_t, solid_t
    use square_lattice, only: lattice_crowd
    implicit none
@@ -102,7 +102,7 @@ contains
             solids(k)%pivot = input%pivot
             solids(k)%angle = degree*input%angle
             solids(k)%no_slip = input%surface == 'no_slip'
-            solids(k)%motion = solid_motion(input)
+            solids(k)%motion = motion_of(input)
          end associate
       end do
    end function set_up_solids

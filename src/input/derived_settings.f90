@@ -7,12 +7,12 @@ module derived_settings
    use motions, only: motion_t
    use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t, solid_settings
-   use solid_outlines, only: shape_centroid, solid_motion, solid_radius
+   use solid_outlines, only: motion_of, shape_centroid, solid_radius
    use text, only: to_text
    implicit none
    private
 
-   public :: resolve_model, resolve_settings, set_reference_speed, start_speed, solid_speed, reach
+   public :: resolve_model, resolve_settings, set_reference_speed, start_speed, solid_speed, tank_speed, reach
 
 contains
 
@@ -129,11 +129,12 @@ contains
                   speed = max(speed, solid_speed(draft%scene, draft%scene%solids(i)))
                end do
             end if
+            if (draft%notes%clean('tank domain')) speed = max(speed, tank_speed(draft%scene))
             if (.not. speed > 0.0_dp .and. draft%notes%any_mistake()) then
                speed = 1.0_dp   ! what moves the fluid may be what is wrong
             else if (.not. speed > 0.0_dp) then
                call draft%mistake('fluid', 1, 'reference_speed', auto//'has nothing to find: no gravity, ' &
-                                  //'force, velocity, moving wall or solid; give one, or sound_speed in the place of mach')
+                                  //'force, velocity, moving wall, solid or tank; give one, or sound_speed in the place of mach')
             end if
             fluid%sound_speed = speed/fluid%mach
          end if
@@ -167,9 +168,20 @@ contains
       type(solid_settings), intent(in) :: solid   !! its pivot is known
       type(motion_t) :: motion
 
-      motion = solid_motion(solid)
+      motion = motion_of(solid)
       speed = motion%largest_speed(solid_radius(scene, solid))
    end function solid_speed
+
+   !> Bound of the speed of any point of the box as it is drawn, at any time [m/s].
+   pure real(dp) function tank_speed(scene) result(speed)
+      type(settings_t), intent(in) :: scene
+      type(motion_t) :: motion
+
+      associate (domain => scene%domain, pivot => scene%tank%pivot)
+         motion = motion_of(scene%tank)
+         speed = motion%largest_speed(norm2(max(abs(domain%lower - pivot), abs(domain%upper - pivot))))
+      end associate
+   end function tank_speed
 
    !> Largest speed that a body starts with or the central field soon gives it [m/s].
    real(dp) function start_speed(scene, body, solutions) result(speed)

@@ -6,7 +6,7 @@ module scene_keys
    use key_table, only: key_t, keys_t, not_negative, positive, range_t
    use kinds, only: dp
    use known_solutions, only: known_solutions_t
-   use settings, only: body_settings, choice_length, group_names, settings_t, solid_settings
+   use settings, only: body_settings, choice_length, group_names, motion_settings, settings_t, solid_settings
    implicit none
    private
 
@@ -19,6 +19,8 @@ module scene_keys
    real(dp), parameter, public :: largest_mach = 0.5_dp
 
    character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
+
+   character(*), parameter :: motion_choices(*) = [character(choice_length) :: 'none', 'uniform', 'oscillation', 'table']
 
    !> What snapshots can hold.
    character(choice_length), parameter :: field_names(*) = &
@@ -37,6 +39,7 @@ module scene_keys
       known_group_t('domain', 'The box the fluid moves in; its sides are walls or open.', .true., .false.), &
       known_group_t('fluid', "The fluid's constants. Give mach and reference_speed, or sound_speed.", .true., .false.), &
       known_group_t('force', 'What acts on the fluid besides gravity.', .false., .false.), &
+      known_group_t('tank', 'How the box moves; the scene is seen from it.', .false., .false.), &
       known_group_t('body', 'A block of fluid at the start.', .true., .true.), &
       known_group_t('solid', 'A rigid body in the fluid, at rest or moved.', .false., .true.), &
       known_group_t('model', 'The diffusive terms.', .false., .false.), &
@@ -130,11 +133,16 @@ contains
             call keys%only_with('central_rate', force%central_rate > 0.0_dp)
             call keys%add(key_t('centre', 'Centre of the central field, x and y.', 'm', vector=force%centre))
          end associate
+      case ('tank')
+         call add_keys_of_motion(scene%tank, motion_choices([1, 3, 4]), keys)
+         call keys%only_with('a motion', scene%tank%motion /= 'none')
+         call keys%add(key_t('pivot', "Point it turns about, x and y in the box's own coordinates.", 'm', &
+                             vector=scene%tank%pivot))
       case ('body')
          call add_keys_of_body(scene%bodies(number), keys)
       case ('solid')
          call add_keys_of_shape(scene%solids(number), keys)
-         call add_keys_of_motion(scene%solids(number), keys)
+         call add_keys_of_motion(scene%solids(number), motion_choices, keys)
       end select
    end subroutine add_keys_of_fluid
 
@@ -193,29 +201,32 @@ contains
                           choices=[character(choice_length) :: 'cut', 'refuse']), solid%fluid)
    end subroutine add_keys_of_shape
 
-   ! How a solid moves.
-   subroutine add_keys_of_motion(solid, keys)
-      type(solid_settings), intent(inout), target :: solid
+   ! How a solid or the tank moves.
+   subroutine add_keys_of_motion(moved, choices, keys)
+      class(motion_settings), intent(inout), target :: moved
+      character(*), intent(in) :: choices(:)   ! of motions
       type(keys_t), intent(inout) :: keys
 
       call keys%add(key_t('motion', 'How it moves from where it is drawn: shifts, and turns about pivot.', &
-                          choices=[character(choice_length) :: 'none', 'uniform', 'oscillation', 'table']), solid%motion)
-      call keys%only_with("motion = 'uniform'", solid%motion == 'uniform')
-      call keys%add(key_t('velocity', 'Velocity, x and y.', 'm/s', vector=solid%velocity))
-      call keys%add(key_t('spin', 'Rate at which it turns, counter-clockwise about pivot.', 'degrees/s', number=solid%spin))
-      call keys%only_with("motion = 'oscillation'", solid%motion == 'oscillation')
-      call keys%add(key_t('amplitude', 'Amplitude of its shift, x and y.', 'm', vector=solid%amplitude))
-      call keys%add(key_t('swing', 'Amplitude of its angle.', 'degrees', number=solid%swing))
-      call keys%add(key_t('period', 'Period of the oscillation.', 's', positive, .true., solid%period))
+                          choices=choices), moved%motion)
+      if (any(choices == 'uniform')) then
+         call keys%only_with("motion = 'uniform'", moved%motion == 'uniform')
+         call keys%add(key_t('velocity', 'Velocity, x and y.', 'm/s', vector=moved%velocity))
+         call keys%add(key_t('spin', 'Rate at which it turns, counter-clockwise about pivot.', 'degrees/s', number=moved%spin))
+      end if
+      call keys%only_with("motion = 'oscillation'", moved%motion == 'oscillation')
+      call keys%add(key_t('amplitude', 'Amplitude of its shift, x and y.', 'm', vector=moved%amplitude))
+      call keys%add(key_t('swing', 'Amplitude of its angle.', 'degrees', number=moved%swing))
+      call keys%add(key_t('period', 'Period of the oscillation.', 's', positive, .true., moved%period))
       call keys%add(key_t('phase', 'Phase of the oscillation at t = 0; with 0 it begins in the middle.', 'degrees', &
-                          number=solid%phase))
+                          number=moved%phase))
       call keys%add(key_t('ramp', 'Time within which the oscillation sets in. 0: at once.', 's', not_negative, &
-                          number=solid%ramp))
-      call keys%only_with("motion = 'table'", solid%motion == 'table')
+                          number=moved%ramp))
+      call keys%only_with("motion = 'table'", moved%motion == 'table')
       call keys%add(key_t('table', 'Its way in 2 to 2000 rows of time [s], shift in x and y [m] and angle [degrees]; it rests '// &
-                          'after the last.', 's, m, degrees', numbers=solid%table))
+                          'after the last.', 's, m, degrees', numbers=moved%table))
       call keys%add(key_t('table_file', 'Instead of table: a text file with a row in each line, the angle may lack; its path '// &
-                          "from the scene's file on. It is read in as table."), solid%table_file)
+                          "from the scene's file on. It is read in as table."), moved%table_file)
       call keys%only_with('', .true.)
    end subroutine add_keys_of_motion
 

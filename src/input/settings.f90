@@ -10,7 +10,7 @@ module settings
 
    public :: settings_t, scene_settings, domain_settings, fluid_settings, force_settings, body_settings
    public :: exact_settings, model_settings, time_settings, output_settings, probe_settings, gauge_settings
-   public :: solid_settings, number_list_t, is_wall
+   public :: motion_settings, solid_settings, tank_settings, number_list_t, is_wall
 
    integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
    integer, parameter, public :: title_length = 120    !! characters of a scene's title
@@ -20,8 +20,8 @@ module settings
    integer, parameter, public :: most_numbers = 8000   !! numbers that a key may list
 
    !> The namelist groups in the order in which they are written.
-   character(6), parameter, public :: group_names(12) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'body', 'solid', &
-                                                         'model', 'exact', 'time', 'output', 'probe', 'gauge']
+   character(6), parameter, public :: group_names(13) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'tank', 'body', &
+                                                         'solid', 'model', 'exact', 'time', 'output', 'probe', 'gauge']
 
    !> The sides of the box in the order of `side_kinds`.
    character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
@@ -85,21 +85,10 @@ module settings
       procedure :: n => numbers_there
    end type number_list_t
 
-   !> &solid: a rigid body in the fluid. After reading, `vertices` and `table` hold what their files held, and `pivot` is that used.
-   type :: solid_settings
-      character(name_length) :: name = ''
-      character(choice_length) :: shape = 'polygon'
-      type(number_list_t) :: vertices                !! of a polygon, counter-clockwise: x, y of each [m]
-      character(path_length) :: vertices_file = ''   !! '' after reading
-      real(dp) :: lower(2) = 0.0_dp                  !! lower left corner of a rectangle [m]
-      real(dp) :: upper(2) = 0.0_dp                  !! its upper right corner [m]
-      real(dp) :: centre(2) = 0.0_dp                 !! of a disc [m]
-      real(dp) :: radius = 0.0_dp                    !! of a disc [m]
-      real(dp) :: angle = 0.0_dp                     !! it is turned by, counter-clockwise [degrees]
-      real(dp) :: pivot(2) = 0.0_dp                  !! about which it is turned, and moments are taken [m]
-      character(choice_length) :: surface = 'free_slip'
-      character(choice_length) :: fluid = 'cut'      !! what to do with a body of fluid that overlaps it
+   !> How a solid or the tank moves. After reading, `table` holds what its file held.
+   type :: motion_settings
       character(choice_length) :: motion = 'none'
+      real(dp) :: pivot(2) = 0.0_dp                  !! about which it turns [m]
       real(dp) :: velocity(2) = 0.0_dp               !! of uniform motion [m/s]
       real(dp) :: spin = 0.0_dp                      !! of uniform motion [degrees/s]
       real(dp) :: amplitude(2) = 0.0_dp              !! of an oscillation [m]
@@ -109,6 +98,26 @@ module settings
       real(dp) :: ramp = 0.0_dp                      !! within which an oscillation sets in [s]
       type(number_list_t) :: table                   !! t [s], shift in x and y [m], angle [degrees] of each row
       character(path_length) :: table_file = ''      !! '' after reading
+   end type motion_settings
+
+   !> &tank: how the box moves. Its pivot is in the box's own coordinates.
+   type, extends(motion_settings) :: tank_settings
+   end type tank_settings
+
+   !> &solid: a rigid body in the fluid. After reading, `vertices` holds what its file held, and `pivot`, about which it is also
+   !! turned at first and moments are taken, is that used.
+   type, extends(motion_settings) :: solid_settings
+      character(name_length) :: name = ''
+      character(choice_length) :: shape = 'polygon'
+      type(number_list_t) :: vertices                !! of a polygon, counter-clockwise: x, y of each [m]
+      character(path_length) :: vertices_file = ''   !! '' after reading
+      real(dp) :: lower(2) = 0.0_dp                  !! lower left corner of a rectangle [m]
+      real(dp) :: upper(2) = 0.0_dp                  !! its upper right corner [m]
+      real(dp) :: centre(2) = 0.0_dp                 !! of a disc [m]
+      real(dp) :: radius = 0.0_dp                    !! of a disc [m]
+      real(dp) :: angle = 0.0_dp                     !! it is turned by, counter-clockwise [degrees]
+      character(choice_length) :: surface = 'free_slip'
+      character(choice_length) :: fluid = 'cut'      !! what to do with a body of fluid that overlaps it
    end type solid_settings
 
    !> &exact: the exact solution that the scene follows.
@@ -180,6 +189,7 @@ module settings
       type(domain_settings) :: domain
       type(fluid_settings) :: fluid
       type(force_settings) :: force
+      type(tank_settings) :: tank
       type(exact_settings) :: exact
       type(model_settings) :: model
       type(time_settings) :: time

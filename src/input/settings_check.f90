@@ -16,6 +16,7 @@ module settings_check
    use scene_keys, only: largest_mach
    use settings, only: settings_t
    use solid_check, only: check_solids
+   use tank_check, only: check_tank
    use text, only: quoted, rounded_down, rounded_up, short, to_text
    implicit none
    private
@@ -41,6 +42,7 @@ contains
       ! With a sound speed that is a guess so far: when it is known.
       if (draft%notes%clean('time model fluid scene') .and. .not. draft%scene%fluid%find_reference_speed) &
          call check_viscosity(draft)
+      call check_tank(draft)
       call check_bodies(draft)
       call check_solids(draft)
       if (draft%notes%clean('body scene')) call check_particle_number(draft)

@@ -1,22 +1,22 @@
-!> Checks the solids: their names and shapes, how fast they move, and whether fluid lies where they are. Module `solid_room` checks
+!> Checks the solids: their names and shapes, how they move, and whether fluid lies where they are. Module `solid_room` checks
 !! where they lie.
 module solid_check
    use derived_settings, only: solid_speed
    use draft, only: draft_t
    use kinds, only: dp
+   use motion_check, only: compare_with_sound, warn_of_rest
    use name_table, only: name_table_t
    use polygons, only: find_crossing, is_inside, narrowest, polygon_area, regular_polygon
    use scanner, only: letters
    use settings, only: body_settings
    use solid_outlines, only: starting_outline
    use solid_room, only: check_gaps_between, check_room, in_words
-   use text, only: quoted, short, to_text
+   use text, only: quoted, to_text
    implicit none
    private
 
    public :: check_solids
 
-   real(dp), parameter :: fast = 0.3_dp     ! of the sound speed
    integer, parameter :: disc_corners = 120 ! of a polygon that stands for a disc of fluid
 
 contains
@@ -79,39 +79,21 @@ contains
                                     //'&fluid viscosity or &model alpha')
    end subroutine check_surfaces
 
-   !> What moves must be slower than sound.
+   ! What moves must be slower than sound.
    subroutine check_motion(draft, number)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
       character(:), allocatable :: what
       real(dp) :: speed
 
-      associate (solid => draft%scene%solids(number), c0 => draft%scene%fluid%sound_speed)
+      associate (solid => draft%scene%solids(number))
          if (solid%motion == 'none') return
          speed = solid_speed(draft%scene, solid)
          what = '&solid '//quoted(solid%name)
-         if (.not. speed > 0.0_dp) call draft%warning('solid', number, 'motion', what//' motion = '//quoted(solid%motion) &
-            //' leaves it where it is: '//motion_keys(solid%motion))
-         if (.not. draft%notes%clean('fluid')) return
-         what = what//' moves at up to '//short(speed)//', '//short(speed/c0)//' times the sound speed'
-         if (speed > c0) then
-            call draft%mistake('solid', number, 'motion', what//': slow it down or raise sound_speed (or lower mach)')
-         else if (speed > fast*c0) then
-            call draft%warning('solid', number, 'motion', what//': the fluid before it is compressed; slow it down or raise ' &
-                               //'sound_speed (or lower mach)')
-         end if
+         if (.not. speed > 0.0_dp) call warn_of_rest(draft, 'solid', number, what, solid%motion)
+         call compare_with_sound(draft, 'solid', number, what, speed)
       end associate
    end subroutine check_motion
-
-   ! What of a motion is to be given.
-   pure function motion_keys(motion) result(words)
-      character(*), intent(in) :: motion
-      character(:), allocatable :: words
-
-      words = 'give velocity or spin'
-      if (motion == 'oscillation') words = 'give amplitude or swing'
-      if (motion == 'table') words = 'its rows are all the same'
-   end function motion_keys
 
    !> A shape must have an inside.
    subroutine check_shape(draft, number, well)

@@ -3,12 +3,12 @@ module solid_outlines
    use kinds, only: dp
    use motions, only: motion_t, move_point, oscillating, pose_t, tabulated, uniform
    use polygons, only: polygon_centroid, regular_polygon, turned
-   use settings, only: settings_t, solid_settings
+   use settings, only: motion_settings, settings_t, solid_settings
    use smooth_tables, only: new_smooth_table
    implicit none
    private
 
-   public :: solid_outline, starting_outline, solid_motion, shape_centroid, solid_radius
+   public :: n_corners, solid_outline, starting_outline, motion_of, shape_centroid, solid_radius
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: degree = pi/180
@@ -17,12 +17,29 @@ module solid_outlines
 
 contains
 
+   !> How many vertices the outline of a solid has.
+   pure integer function n_corners(scene, solid) result(n)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid
+      real(dp) :: corners
+
+      select case (solid%shape)
+      case ('rectangle')
+         n = 4
+      case ('disc')
+         corners = min(real(corners_range(2), dp), per_spacing*2*pi*solid%radius/scene%spacing())
+         n = max(corners_range(1), ceiling(corners))
+      case default
+         n = solid%vertices%n()/2
+      end select
+   end function n_corners
+
    !> A solid as it is drawn: turned by its angle about its pivot, not yet moved. Counter-clockwise if its vertices are; a disc
    !! is a regular polygon of the same area.
    pure function solid_outline(scene, solid) result(vertices)
       type(settings_t), intent(in) :: scene
-      type(solid_settings), intent(in) :: solid   !! its pivot is known
-      real(dp), allocatable :: vertices(:, :)     !! (2, n) [m]
+      type(solid_settings), intent(in) :: solid          !! its pivot is known
+      real(dp) :: vertices(2, n_corners(scene, solid))   !! [m]
 
       vertices = turned(shape_of(scene, solid), solid%pivot, solid%angle*degree)
    end function solid_outline
@@ -31,14 +48,14 @@ contains
    pure function starting_outline(scene, solid) result(vertices)
       type(settings_t), intent(in) :: scene
       type(solid_settings), intent(in) :: solid
-      real(dp), allocatable :: vertices(:, :)     !! (2, n) [m]
+      real(dp) :: vertices(2, n_corners(scene, solid))   !! [m]
       real(dp) :: place(2), velocity(2), acceleration(2)
       type(motion_t) :: motion
       type(pose_t) :: pose
       integer :: k
 
       vertices = solid_outline(scene, solid)
-      motion = solid_motion(solid)
+      motion = motion_of(solid)
       pose = motion%at(0.0_dp)
       do k = 1, size(vertices, 2)
          call move_point(pose, solid%pivot, vertices(:, k), place, velocity, acceleration)
@@ -46,30 +63,30 @@ contains
       end do
    end function starting_outline
 
-   !> How a solid moves from where it is drawn.
-   pure type(motion_t) function solid_motion(solid) result(motion)
-      type(solid_settings), intent(in) :: solid   !! with its table, if it follows one
+   !> How a solid, or the tank, moves from where it is drawn.
+   pure type(motion_t) function motion_of(moved) result(motion)
+      class(motion_settings), intent(in) :: moved   !! with its table, if it follows one
       real(dp), allocatable :: rows(:, :)
 
-      select case (solid%motion)
+      select case (moved%motion)
       case ('uniform')
          motion%kind = uniform
-         motion%velocity = solid%velocity
-         motion%spin = solid%spin*degree
+         motion%velocity = moved%velocity
+         motion%spin = moved%spin*degree
       case ('oscillation')
          motion%kind = oscillating
-         motion%amplitude = solid%amplitude
-         motion%swing = solid%swing*degree
-         motion%period = solid%period
-         motion%phase = solid%phase*degree
-         motion%ramp = solid%ramp
+         motion%amplitude = moved%amplitude
+         motion%swing = moved%swing*degree
+         motion%period = moved%period
+         motion%phase = moved%phase*degree
+         motion%ramp = moved%ramp
       case ('table')
          motion%kind = tabulated
-         rows = transpose(reshape(solid%table%values, [4, solid%table%n()/4]))
+         rows = transpose(reshape(moved%table%values, [4, moved%table%n()/4]))
          rows(:, 4) = rows(:, 4)*degree
          motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
       end select
-   end function solid_motion
+   end function motion_of
 
    !> Centroid of a solid's shape, not turned [m].
    pure function shape_centroid(scene, solid) result(centre)
@@ -91,7 +108,7 @@ contains
    pure real(dp) function solid_radius(scene, solid) result(radius)
       type(settings_t), intent(in) :: scene
       type(solid_settings), intent(in) :: solid
-      real(dp), allocatable :: vertices(:, :)
+      real(dp) :: vertices(2, n_corners(scene, solid))
       integer :: k
 
       vertices = shape_of(scene, solid)
@@ -105,24 +122,16 @@ contains
    pure function shape_of(scene, solid) result(vertices)
       type(settings_t), intent(in) :: scene
       type(solid_settings), intent(in) :: solid
-      real(dp), allocatable :: vertices(:, :)   ! (2, n) [m]
-      real(dp) :: corners
-      integer :: n
+      real(dp) :: vertices(2, n_corners(scene, solid))   ! [m]
 
       select case (solid%shape)
       case ('rectangle')
-         allocate (vertices(2, 4))
          vertices(1, :) = [solid%lower(1), solid%upper(1), solid%upper(1), solid%lower(1)]
          vertices(2, :) = [solid%lower(2), solid%lower(2), solid%upper(2), solid%upper(2)]
       case ('disc')
-         corners = min(real(corners_range(2), dp), per_spacing*2*pi*solid%radius/scene%spacing())
-         n = max(corners_range(1), ceiling(corners))
-         allocate (vertices(2, n))
-         vertices(:, :) = regular_polygon(solid%centre, solid%radius, n)
+         vertices = regular_polygon(solid%centre, solid%radius, size(vertices, 2))
       case default
-         n = solid%vertices%n()/2
-         allocate (vertices(2, n))
-         vertices(:, :) = reshape(solid%vertices%values, [2, n])
+         vertices = reshape(solid%vertices%values, shape(vertices))
       end select
    end function shape_of
 

@@ -8,7 +8,7 @@ module solid_room
    use polygons, only: clip_polygon, is_inside, narrowest, polygon_area, thinnest
    use scene_keys, only: resolution_range
    use settings, only: choice_length, is_wall, settings_t, side_names, solid_settings
-   use solid_outlines, only: starting_outline
+   use solid_outlines, only: n_corners, starting_outline
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -31,7 +31,8 @@ contains
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
       logical, intent(out) :: well            !! nothing is wrong
-      real(dp), allocatable :: outline(:, :), inner(:, :)
+      real(dp) :: outline(2, n_corners(draft%scene, draft%scene%solids(number)))
+      real(dp), allocatable :: inner(:, :)
       character(:), allocatable :: key, problem
 
       outline = starting_outline(draft%scene, draft%scene%solids(number))
