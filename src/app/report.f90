@@ -137,7 +137,8 @@ contains
       words = 'RK'//model%integrator%name(3:)
       if (.not. model%frozen) words = words//', diffusion in every stage'
       if (has%gravity) words = words//', gravity'
-      if (has%force) words = words//', uniform force'
+      if (model%has_force()) words = words//', uniform force'
+      if (has%tank) words = words//', moving tank'
       if (has%central) words = words//', central force'
       associate (kind => model%box%kind)
          kind_of_images = ', mirror'
@@ -175,7 +176,7 @@ contains
       has = model%terms()
       words = names_text([character(24) :: 'gravity', 'uniform force', 'central force', 'walls', 'no-slip', 'periodic sides', &
                           'solids', 'viscosity', 'density diffusion', 'dynamic coefficients'], &
-                         .not. [has%gravity, has%force, has%central, has%walls, has%no_slip, has%periodic, has%solids, &
+                         .not. [has%gravity, model%has_force(), has%central, has%walls, has%no_slip, has%periodic, has%solids, &
                                 has%viscosity, has%diffusion, has%eddies])
    end function left_out
 

@@ -41,6 +41,8 @@ contains
       model%alpha = scene%alpha_total()
       model%acceleration = scene%force%acceleration
       model%central_rate = scene%force%central_rate
+      model%tank = motion_of(scene%tank)
+      model%tank_pivot = scene%tank%pivot
       model%centre = scene%force%centre
       model%viscosity = scene%fluid%viscosity
       model%box = set_up_box(scene)

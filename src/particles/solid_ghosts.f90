@@ -30,7 +30,8 @@ module solid_ghosts
       logical :: shared = .false.                  !! some cell has a ghost for each of several faces
       type(obstacle_t), allocatable :: obstacles(:)   !! solids where the ghosts are; only then
       real(dp) :: acceleration = 0                 !! [m/s2] none has more
-      real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid
+      real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid,
+      real(dp) :: width = 0                        !! [m] and less than which they stand beside where they are sorted
       type(strips_t) :: strips
       type(images_t) :: images
       integer :: n_blocks = 0
@@ -108,6 +109,7 @@ contains
 
       call find_cells(solids, box, dx, support, self%drawn)
       self%n = size(self%drawn)
+      self%width = dx
       self%shared = any(self%drawn%edge > 0)
       do k = 1, size(solids)
          self%acceleration = max(self%acceleration, solids(k)%motion%largest_acceleration(solids(k)%radius()))
@@ -350,7 +352,7 @@ contains
       associate (first => self%before + 1, last => self%before + self%n_slots)
          ! A solid's velocity at `base` leads its ghosts to where they are predicted; beside that they go by their acceleration.
          predicted%volume(first:p%n_slots) = self%acceleration*(abs(times(1)) + times(2))**2 &
-                                             + self%creep*(abs(times(1)) + times(2))
+                                             + self%creep*(abs(times(1)) + times(2)) + merge(self%width, 0.0_dp, self%creep > 0)
          call take_slack(self%strips, predicted%volume)
          call take_slack(self%images%strips, predicted%volume)
          call lay_out(self, size(blocks))
