@@ -5,7 +5,7 @@
 module solid_ghosts
    use box, only: box_t
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
-   use image_laws, only: as_position, law_t
+   use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
    use lanes, only: nl
@@ -29,6 +29,7 @@ module solid_ghosts
       type(cell_t), allocatable :: drawn(:)        !! (n) before the solids' motion
       logical :: shared = .false.                  !! some cell has a ghost for each of several faces
       type(obstacle_t), allocatable :: obstacles(:)   !! solids where the ghosts are; only then
+      logical, allocatable :: through(:, :)        !! (4, solids) it moves, and reaches through the side
       real(dp) :: acceleration = 0                 !! [m/s2] none has more
       real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid,
       real(dp) :: width = 0                        !! [m] and less than which they stand beside where they are sorted
@@ -52,6 +53,7 @@ module solid_ghosts
       procedure :: exist
       procedure :: solid_of
       procedure :: signs
+      procedure :: passes
       procedure :: bytes => ghosts_bytes
    end type solid_ghosts_t
 
@@ -89,6 +91,23 @@ contains
       end associate
    end function signs
 
+   !> -1 for axes along which the velocity of a ghost's image of some kind is not mirrored, because its solid goes on beyond the
+   !! wall; else 1.
+   pure function passes(self, k, kind)
+      class(solid_ghosts_t), intent(in) :: self
+      integer, intent(in) :: k       !! slot of the ghost, counted from the first one's
+      integer, intent(in) :: kind    !! of the image
+      real(dp) :: passes(2)
+      integer :: axis
+
+      passes = 1
+      if (self%solid_of(k) == 0) return
+      do axis = 1, 2
+         if (beyond(axis, kind) == 0) cycle
+         if (self%through(beyond(axis, kind), self%solid_of(k))) passes(axis) = -1
+      end do
+   end function passes
+
    !> Bytes that all arrays take.
    pure integer(i8) function ghosts_bytes(self) result(bytes)
       class(solid_ghosts_t), intent(in) :: self
@@ -110,6 +129,7 @@ contains
       call find_cells(solids, box, dx, support, self%drawn)
       self%n = size(self%drawn)
       self%width = dx
+      allocate (self%through(4, size(solids)), source=.false.)
       self%shared = any(self%drawn%edge > 0)
       do k = 1, size(solids)
          self%acceleration = max(self%acceleration, solids(k)%motion%largest_acceleration(solids(k)%radius()))
@@ -171,11 +191,10 @@ contains
       type(solid_t), intent(in) :: solid
       type(box_t), intent(in) :: box
       type(obstacle_t) :: now
-      integer :: side
 
       creep_of = 0
       now = new_obstacle(solid, box)
-      if (any([(is_beyond(box, now%lower, now%upper, side), side=1, 4)])) creep_of = solid%motion%largest_speed(solid%radius())
+      if (any(is_through(now, box))) creep_of = solid%motion%largest_speed(solid%radius())
    end function creep_of
 
    ! Where the ghosts are at the box's time.
@@ -239,6 +258,8 @@ contains
       do k = 1, size(solids)
          pose(k) = solids(k)%motion%at(box%time)
          moves(k) = solids(k)%motion%moves()
+         self%through(:, k) = .false.
+         if (moves(k)) self%through(:, k) = is_through(new_obstacle(solids(k), box), box)
       end do
       if (self%shared) self%obstacles = [(new_obstacle(solids(k), box), k=1, size(solids))]
       !$omp parallel do default(none) shared(self, solids, box, state, pose, moves)
@@ -247,6 +268,16 @@ contains
       end do
       !$omp end parallel do
    end subroutine move_ghosts
+
+   ! Which walls a solid reaches through.
+   pure function is_through(now, box) result(through)
+      type(obstacle_t), intent(in) :: now
+      type(box_t), intent(in) :: box
+      logical :: through(4)
+      integer :: side
+
+      through = [(is_beyond(box, now%lower, now%upper, side), side=1, 4)]
+   end function is_through
 
    pure subroutine move_ghost(self, solids, box, pose, moves, k, state)
       type(solid_ghosts_t), intent(inout) :: self
@@ -321,10 +352,19 @@ contains
       type(solid_ghosts_t), intent(inout) :: self
       type(box_t), intent(in) :: box             !! at the state's time
       type(state_t), intent(inout) :: state      !! density of the ghosts is set, as is their exchange
+      real(dp) :: pass(2)
+      integer :: k, source
 
       if (self%images%n == 0) return
       call fill_ghosts(self%images, box, state)
       call mirror_field(self, self%exchange)
+      if (.not. any(self%through)) return
+      do k = 1, self%images%n
+         source = self%images%source(k)
+         pass = self%passes(source - self%before, self%images%kind(k))
+         if (pass(1) < 0) state%u(self%images%n_held + k) = state%u(source)
+         if (pass(2) < 0) state%v(self%images%n_held + k) = state%v(source)
+      end do
    end subroutine mirror_ghosts
 
    ! What images have as their sources do.

@@ -67,9 +67,9 @@ contains
       type(box_t), intent(in) :: box
       real(dp), intent(in) :: alpha              !! [1] that acts everywhere
       real(dp), intent(out) :: sums(4, block_slots)   !! [m3/s] sum_f alpha_f pi_fb r t**3 V_f, of images mirrored; as it is
-      real(dp) :: way(2), g, f, unused, mine, alpha_j, sign(2)
+      real(dp) :: way(2), g, f, unused, mine, alpha_j, sign(2), pass(2)
       type(law_t) :: law(2)
-      integer :: c, i, j, k, l
+      integer :: c, i, j, k, kind, l
 
       sums = 0
       law = [as_position(box, 1), as_position(box, 2)]
@@ -78,10 +78,13 @@ contains
             do k = block%first(c), block%first(c + 1) - 1
                j = block%slot(k)
                sign = 1
+               kind = 0
                alpha_j = alpha
                if (p%features%eddy) alpha_j = alpha + p%alpha(j)
-               if (k >= block%first_image(c)) sign = [law(1)%factor(images%kind(j - images%n_held)), &
-                                                      law(2)%factor(images%kind(j - images%n_held))]
+               if (k >= block%first_image(c)) then
+                  kind = images%kind(j - images%n_held)
+                  sign = [law(1)%factor(kind), law(2)%factor(kind)]
+               end if
                do l = (c - 1)*nl + 1, c*nl
                   i = block%before + l
                   if (.not. ghosts%stick(i - ghosts%before) > 0) cycle
@@ -93,9 +96,12 @@ contains
                                      [1.0_dp, 1.0_dp], mine, unused)
                      g = mine*g
                   end if
-                  f = 2*((state%u(i) - state%u(j))*way(1) + (state%v(i) - state%v(j))*way(2))/squared_distance(way(1), way(2))
+                  pass = 1
+                  if (kind > 0) pass = ghosts%passes(i - ghosts%before, kind)
+                  f = 2*((pass(1)*state%u(i) - state%u(j))*way(1) + (pass(2)*state%v(i) - state%v(j))*way(2)) &
+                      /squared_distance(way(1), way(2))
                   f = alpha_j*f*g*state%volume(j)
-                  sums(:, l) = sums(:, l) + f*[sign*way, way]
+                  sums(:, l) = sums(:, l) + f*[sign*way, pass*way]
                end do
             end do
          end do

@@ -47,18 +47,18 @@ contains
       if (ghosts%shared) then
          call sum_shares(kernel, ghosts, ghosts%fluid(b), state, images, box, sums)
       else
-         call sum_whole(kernel, ghosts%fluid(b), state, images, box, ghosts%fluid(b)%before, sums)
+         call sum_whole(kernel, ghosts, ghosts%fluid(b), state, images, box, sums)
       end if
    end subroutine sum_ghosts
 
    ! Where no cell has several ghosts.
-   pure subroutine sum_whole(kernel, block, state, images, box, i0, sums)
+   pure subroutine sum_whole(kernel, ghosts, block, state, images, box, sums)
       type(kernel_t), intent(in) :: kernel
+      type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block
       type(state_t), intent(in) :: state
       type(images_t), intent(in) :: images
       type(box_t), intent(in) :: box
-      integer, intent(in) :: i0
       type(ghost_sums_t), intent(inout) :: sums
       integer :: c, k, n
 
@@ -66,8 +66,8 @@ contains
          k = (c - 1)*nl
          n = block%first(c + 1) - block%first(c)
          call ghost_loop(n, block%slot(block%first(c):block%first(c + 1) - 1), size(state%x), state%x, state%y, state%u, state%v, &
-                         state%s, state%volume, i0 + k, k, kernel%inverse_support, sums)
-         call sum_images(kernel, block, c, state, images, box, i0, sums)
+                         state%s, state%volume, block%before + k, k, kernel%inverse_support, sums)
+         call sum_images(kernel, ghosts, block, c, state, images, box, sums)
       end do
    end subroutine sum_whole
 
@@ -109,7 +109,7 @@ contains
                   sums%area_x(l) = sums%area_x(l) + g*way(1)
                   sums%area_y(l) = sums%area_y(l) + g*way(2)
                else
-                  call add_image(state, images, box, i, j, g*way, sums%images(:, l))
+                  call add_image(ghosts, state, images, box, i, j, g*way, sums, l)
                end if
             end do
          end do
@@ -164,23 +164,24 @@ contains
    end subroutine ghost_loop
 
    ! `push` and `area` of images apart: `ghost_loop` has added them to the fluid's.
-   pure subroutine sum_images(kernel, block, c, state, images, box, i0, sums)
+   pure subroutine sum_images(kernel, ghosts, block, c, state, images, box, sums)
       type(kernel_t), intent(in) :: kernel
+      type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block
       integer, intent(in) :: c                ! cluster
       type(state_t), intent(in) :: state
       type(images_t), intent(in) :: images
       type(box_t), intent(in) :: box
-      integer, intent(in) :: i0
       type(ghost_sums_t), intent(inout) :: sums
       real(dp) :: way(2), g, w
-      integer :: k, j, l
+      integer :: i, j, k, l
 
       sums%images(:, (c - 1)*nl + 1:c*nl) = 0
       do k = block%first_image(c), block%first(c + 1) - 1
          j = block%slot(k)
          do l = (c - 1)*nl + 1, c*nl
-            way = [state%x(i0 + l) - state%x(j), state%y(i0 + l) - state%y(j)]
+            i = block%before + l
+            way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
             call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
             if (.not. g > 0) cycle
             g = g*state%volume(j)
@@ -188,22 +189,25 @@ contains
             sums%push_y(l) = sums%push_y(l) - g*state%s(j)*way(2)
             sums%area_x(l) = sums%area_x(l) - g*way(1)
             sums%area_y(l) = sums%area_y(l) - g*way(2)
-            call add_image(state, images, box, i0 + l, j, g*way, sums%images(:, l))
+            call add_image(ghosts, state, images, box, i, j, g*way, sums, l)
          end do
       end do
    end subroutine sum_images
 
    ! An image of kind M acts on a ghost as its source, with its own density, does on the ghost's image of that kind, whose density
-   ! is other by the hydrostatic difference. The force that the source feels is mirrored.
-   pure subroutine add_image(state, images, box, i, j, weight, sums)
+   ! is other by the hydrostatic difference. The force that the source feels is mirrored. Where the solid goes on beyond the wall,
+   ! the ghost's image has its velocity U as it is, so that the image sees the ghost move with M U.
+   pure subroutine add_image(ghosts, state, images, box, i, j, weight, sums, l)
+      type(solid_ghosts_t), intent(in) :: ghosts
       type(state_t), intent(in) :: state
       type(images_t), intent(in) :: images
       type(box_t), intent(in) :: box
       integer, intent(in) :: i, j            ! slots of the ghost and of the image
       real(dp), intent(in) :: weight(2)      ! t**3 V_f r
-      real(dp), intent(inout) :: sums(8)
+      type(ghost_sums_t), intent(inout) :: sums
+      integer, intent(in) :: l               ! place in the block
       type(law_t) :: law(2)
-      real(dp) :: place(2), s, plain(4)
+      real(dp) :: place(2), sign(2), pass(2), s
       integer :: kind
 
       law = [as_position(box, 1), as_position(box, 2)]
@@ -212,9 +216,11 @@ contains
       s = state%s(images%source(j - images%n_held)) &
           + box%density_slope(1)*(image_of(law(1), kind, place(1)) - place(1)) &
           + box%density_slope(2)*(image_of(law(2), kind, place(2)) - place(2))
-      plain = [s*weight, weight]
-      sums(1:4) = sums(1:4) + plain
-      sums(5:8) = sums(5:8) + [law(1)%factor(kind), law(2)%factor(kind), law(1)%factor(kind), law(2)%factor(kind)]*plain
+      sign = [law(1)%factor(kind), law(2)%factor(kind)]
+      pass = ghosts%passes(i - ghosts%before, kind)
+      sums%images(1:4, l) = sums%images(1:4, l) + [s*pass*weight, pass*weight]
+      sums%images(5:8, l) = sums%images(5:8, l) + [s*sign*weight, sign*weight]
+      sums%inflow(l) = sums%inflow(l) + (1 - pass(1))*state%u(i)*weight(1) + (1 - pass(2))*state%v(i)*weight(2)
    end subroutine add_image
 
    !> What solids add to the flow sums of a block of the fluid.
