@@ -1,0 +1,70 @@
+# Solids in the fluid: their work is exact, their forces are right, fluid stays out of them.
+
+# stays(scene "at_most" "means" "rules for summary.txt" settings...): a whole run of tests/scenes or input, and what its tables
+# hold: energy.dat by at_most, solids.dat by means.
+function(a_solid scene path at_most means rules)
+   set(settings "")
+   foreach(setting IN LISTS ARGN)
+      list(APPEND settings --set ${setting})
+   endforeach()
+   add_test(NAME solid_${scene}_runs COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;${settings};--output;solid_${scene};${path}"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DREJECT=NaN" "-DCREATED=solid_${scene}" -P ${run_and_expect})
+   set_tests_properties(solid_${scene}_runs PROPERTIES FIXTURES_SETUP solid_${scene}_result TIMEOUT 120)
+   add_test(NAME solid_${scene}_energies COMMAND ${DYNSPH_AWK} -v "at_most=${at_most}" -f ${scenes}/check_columns.awk
+      ${here}/solid_${scene}/energy.dat)
+   add_test(NAME solid_${scene}_forces COMMAND ${DYNSPH_AWK} -v "means=${means}" -f ${scenes}/check_columns.awk
+      ${here}/solid_${scene}/solids.dat)
+   add_test(NAME solid_${scene}_summary COMMAND ${CMAKE_COMMAND} -DFILE=${here}/solid_${scene}/summary.txt "-DRULES=${rules}"
+      -P ${scenes}/check_summary.cmake)
+   set_tests_properties(solid_${scene}_energies solid_${scene}_forces solid_${scene}_summary PROPERTIES
+      FIXTURES_REQUIRED solid_${scene}_result TIMEOUT 30)
+endfunction()
+
+# Water with rho0 = g = 1 and a sound speed of 10 weighs 1.005 half a unit deep: a block of 0.16 is lifted by 0.1608. What is
+# symmetric stays so, but for rounding.
+a_solid(still_block ${scenes}/still_block.nml "max_speed 0 1.5e-3 max_speed 8 4e-4 W_solid 0 0 W_stat 0 1e-5"
+   "block.force_y 5 0.1600 0.1616 block.force_x 0 -1e-9 1e-9" "energy_balance_error|0|1e-6;wall_crossings|0|0")
+# The same block, turned by 20 degrees: |u| settles at 1e-2 sqrt(gd) at any resolution, because the lattice does not fit.
+a_solid(turned_block ${scenes}/still_block.nml "max_speed 5 3e-2 W_stat 0 5e-5" "block.force_y 5 0.156 0.1656 block.force_x 5 -2e-3 2e-3"
+   "energy_balance_error|0|1e-5" "solid.angle=20")
+# On a slope of 30 degrees rests the water above it: 0.5 sideways, 0.866 downwards.
+a_solid(still_slope ${scenes}/still_slope.nml "max_speed 5 3e-2 W_stat 0 1e-4" "slope.force_x 5 0.485 0.515 slope.force_y 5 -0.892 -0.840"
+   "energy_balance_error|0|1e-5")
+# Four particles of wall between water of 1 and 0.5: 0.375, with the compression 0.3768. None of it across the floor.
+a_solid(still_wall ${scenes}/still_wall.nml "max_speed 2 3e-3 W_stat 0 1e-5" "wall.force_x 2 0.373 0.381 wall.force_y 0 -1e-9 1e-9"
+   "energy_balance_error|0|1e-6;wall_crossings|0|0")
+# A piston that starts at once: what it gives is the work of its force.
+a_solid(piston ${scenes}/piston.nml "W_stat 0 3e-4 W_pen 0 1e-3" "piston.force_y 0 -1e-9 1e-9 piston.force_x 3 -0.75 -0.5"
+   "energy_balance_error|0|1e-3;W_solid|0.2|0.24")
+# Nothing is given by a step that stands still, however hard it is hit; a smaller cfl closes the budget at impacts.
+a_solid(dam_break_step ${PROJECT_SOURCE_DIR}/input/dam_break_step.nml "W_solid 0 0 W_stat/dE 0 8e-3 W_pen/dE 0 2e-3"
+   "step.force_x 5 0 0.15" "energy_balance_error|0|1.5e-3" scene.resolution=20 time.cfl=0.6)
+a_solid(pushed_block ${PROJECT_SOURCE_DIR}/input/pushed_block.nml "W_stat/dE 0 1e-3 W_pen/dE 0 0.02" "block.force_x 1 -0.2 -0.05"
+   "energy_balance_error|0|3e-3;W_solid|0.05|0.07" scene.resolution=20)
+a_solid(belt ${scenes}/belt.nml "W_stat 0 1e-3" "belt.friction_x 0.2 -0.35 -0.18" "energy_balance_error|0|1e-4")
+
+# The flow above the belt's middle, in layers of 0.05: U erfc(y/sqrt(4 nu t)) at t = 0.5, to 1 % of U where the flow that returns from
+# the ends (0.7 % of U) does not matter yet.
+add_test(NAME solid_belt_snapshot COMMAND $<TARGET_FILE:dynsph-snapshot-to-text> ${here}/solid_belt/snapshot_000001.vtkhdf
+   ${here}/solid_belt/last.txt)
+set_tests_properties(solid_belt_snapshot PROPERTIES FIXTURES_REQUIRED solid_belt_result FIXTURES_SETUP solid_belt_text TIMEOUT 30)
+add_test(NAME solid_belt_follows_exact COMMAND ${DYNSPH_AWK} -f ${scenes}/check_belt.awk ${here}/solid_belt/last.txt)
+set_tests_properties(solid_belt_follows_exact PROPERTIES FIXTURES_REQUIRED solid_belt_text TIMEOUT 30)
+
+# A solid far from the fluid changes no bit of it.
+set(far_away "${here}/far.nml")
+file(READ ${dam_break} text)
+file(WRITE ${far_away} "${text}\n&solid name = 'far', shape = 'rectangle', lower = 3.0, 2.2, upper = 3.6, 2.8 /\n")
+foreach(case IN ITEMS near far)
+   set(path ${dam_break})
+   if(case STREQUAL far)
+      set(path ${far_away})
+   endif()
+   add_test(NAME solid_${case}_dam_runs COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=${with_one};--quiet;--set;scene.resolution=20;--set;time.end_time=1;--set;output.energy=1 steps;--set;output.snapshots=never;--output;solid_${case}_dam;${path}"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -P ${run_and_expect})
+   set_tests_properties(solid_${case}_dam_runs PROPERTIES FIXTURES_SETUP solid_dams TIMEOUT 60)
+endforeach()
+add_test(NAME a_far_solid_changes_no_bit COMMAND ${DYNSPH_AWK} -v "names=time E_K E_P E_C Q_alpha Q_delta W_s max_speed dt"
+   -f ${scenes}/check_same_columns.awk ${here}/solid_near_dam/energy.dat ${here}/solid_far_dam/energy.dat)
+set_tests_properties(a_far_solid_changes_no_bit PROPERTIES FIXTURES_REQUIRED solid_dams TIMEOUT 30)
