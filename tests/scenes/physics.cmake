@@ -78,6 +78,8 @@ follows_exact(couette "error_velocity_max|0|0.02;error_velocity_max_mean|0|0.02;
    scene.resolution=20)
 follows_exact(poiseuille "error_velocity_L2_lattice|0|0.02;poiseuille_viscosity_over_lattice|0.97|1.03" scene.resolution=20)
 follows_exact(rotating_square "rotating_square_angular_momentum|0.999|1.001;rotating_square_kinetic_energy|0.9|1" time.end_time=1)
+follows_exact(sloshing "sloshing_frequency_error|-0.01|0.01;error_velocity_L2_mean|0|0.05;energy_balance_error|0|1e-5"
+   scene.resolution=25)
 
 # A run that finishes, and whose summary.txt obeys rules.
 function(run_obeys first second rules timeout scene)
