@@ -143,6 +143,8 @@ near_experiment(dam_break_square "front 1.2 0.2555 0.2824" scene.resolution=40 t
 near_experiment(dam_break_martin_moyce "height 0.05715 0.1481 0.1572 front 0.74295 0.4193 0.5125" scene.resolution=60)
 # The disc at 120 mm at 0.2 rho g d, 5 %.
 near_experiment(dam_break_buchner "P1_at_120mm 1177.2 0.5913 0.6536" scene.resolution=40 time.end_time=0.7)
+# The first impact in the rolling tank, 1000 Pa at the sensor, 2 %.
+near_experiment(sloshing_spheric "sensor1 1000 2.327 2.422" scene.resolution=16 time.end_time=2.45)
 
 # Water hammer: speed of the shock and pressure behind it. At d/dx = 200 they are off by 0.06 % and 0.03 %.
 follows_exact(water_hammer
