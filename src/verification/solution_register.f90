@@ -13,6 +13,7 @@ module solution_register
    use rectangle_impact, only: impact_solution
    use rotating_square, only: rotating_square_solution
    use settings, only: body_settings, choice_length, settings_t
+   use sloshing, only: sloshing_solution_t
    use solution, only: solution_t
    use standing_wave, only: standing_wave_solution
    use taylor_green, only: taylor_green_solution
@@ -57,6 +58,7 @@ contains
       call all%add('poiseuille', poiseuille_solution())
       call all%add('rotating_square', rotating_square_solution())
       call all%add('water_hammer', water_hammer_solution_t())
+      call all%add('sloshing', sloshing_solution_t())
    end subroutine go_through
 
    subroutine add(self, name, solution)

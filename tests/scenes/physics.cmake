@@ -78,6 +78,8 @@ follows_exact(couette "error_velocity_max|0|0.02;error_velocity_max_mean|0|0.02;
    scene.resolution=20)
 follows_exact(poiseuille "error_velocity_L2_lattice|0|0.02;poiseuille_viscosity_over_lattice|0.97|1.03" scene.resolution=20)
 follows_exact(rotating_square "rotating_square_angular_momentum|0.999|1.001;rotating_square_kinetic_energy|0.9|1" time.end_time=1)
+follows_exact(sloshing "sloshing_frequency_error|-0.01|0.01;error_velocity_L2_mean|0|0.05;energy_balance_error|0|1e-5"
+   scene.resolution=25)
 
 # A run that finishes, and whose summary.txt obeys rules.
 function(run_obeys first second rules timeout scene)
@@ -141,6 +143,8 @@ near_experiment(dam_break_square "front 1.2 0.2555 0.2824" scene.resolution=40 t
 near_experiment(dam_break_martin_moyce "height 0.05715 0.1481 0.1572 front 0.74295 0.4193 0.5125" scene.resolution=60)
 # The disc at 120 mm at 0.2 rho g d, 5 %.
 near_experiment(dam_break_buchner "P1_at_120mm 1177.2 0.5913 0.6536" scene.resolution=40 time.end_time=0.7)
+# The first impact in the rolling tank, 1000 Pa at the sensor, 2 %.
+near_experiment(sloshing_spheric "sensor1 1000 2.327 2.422" scene.resolution=16 time.end_time=2.45)
 
 # Water hammer: speed of the shock and pressure behind it. At d/dx = 200 they are off by 0.06 % and 0.03 %.
 follows_exact(water_hammer

@@ -2,7 +2,7 @@
 #
 #    cmake -DPROGRAM=dynsph -DSCENE=input/scene.nml -DLINES=14 -DDIRECTORY=... -P short_form.cmake
 #
-# LINES      that it may have
+# LINES      that it may have, without rows of tables
 # DIRECTORY  where the form and the results of both are put; emptied first
 cmake_minimum_required(VERSION 3.18)
 
@@ -14,7 +14,9 @@ if(NOT status EQUAL 0)
    message(FATAL_ERROR "--shortest ${SCENE}: exit status ${status} instead of 0")
 endif()
 file(READ "${short}" text)
-string(REGEX MATCHALL "\n" line_ends "${text}")
+# Further rows of a table are as many as the file that it was read from has.
+string(REGEX REPLACE "\n      [-0-9][^\n]*" "" counted "${text}")
+string(REGEX MATCHALL "\n" line_ends "${counted}")
 list(LENGTH line_ends number)
 message("${text}")
 if(number GREATER LINES OR number EQUAL 0)

@@ -71,7 +71,7 @@ END {
          printf "%.6f %.6g %.6g\n", t[1, k], value[1, k], (integral(1, b) - integral(1, a))/(b - a)
       }
    } else if (task == "reaches") {
-      for (k = 2; k <= n[1]; k++) if (value[1, k] > level && value[1, k - 1] <= level) {
+      for (k = 2; k <= n[1]; k++) if (within(t[1, k]) && value[1, k] > level && value[1, k - 1] <= level) {
          print t[1, k - 1] + (t[1, k] - t[1, k - 1])*(level - value[1, k - 1])/(value[1, k] - value[1, k - 1]); exit }
       print "none"
    } else if (task ~ /peak/) {
