@@ -153,8 +153,8 @@ contains
             call keys%add(key_t('upper', 'Upper right corner, x and y.', 'm', required=.true., vector=sponge%upper))
             call keys%add(key_t('towards', 'The side at which it ends, and is strongest.', &
                                 choices=[character(choice_length) :: 'left', 'right']), sponge%towards)
-            call keys%add(key_t('rate', 'Rate at its end, at most half of c0/h; 5 times the frequency 2 pi/T is good.', '1/s', &
-                                positive, .true., sponge%rate))
+            call keys%add(key_t('rate', 'Rate at its end, at most half of c0/h; 4 pi/T is good for a layer of one wave length.', &
+                                '1/s', positive, .true., sponge%rate))
          end associate
       end select
    end subroutine add_keys_of_fluid
