@@ -60,5 +60,5 @@ END {
    printf "wave length %.5f, height %.5f, reflected %.4f\n", 8*atan2(1, 1)/k, found, 2*sqrt(b_re^2 + b_im^2)/found
    if (height == "") exit 0
    split(height, wanted, " ")
-   exit !(found >= wanted[1] + 0 && found <= wanted[2] + 0 && 2*sqrt(b_re^2 + b_im^2) <= reflected*found)
+   exit !(found >= wanted[1] + 0 && found <= wanted[2] + 0 && (reflected == "" || 2*sqrt(b_re^2 + b_im^2) <= reflected*found))
 }
