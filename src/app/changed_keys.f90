@@ -96,7 +96,7 @@ contains
       integer, intent(in) :: number
       character(:), allocatable :: name
 
-      if (any(group == [character(8) :: 'body', 'solid', 'probe', 'gauge'])) then
+      if (any(group == [character(8) :: 'body', 'solid', 'sponge', 'probe', 'gauge'])) then
          name = group//'('//to_text(number)//').'//key
       else
          name = group//'.'//key
@@ -157,7 +157,7 @@ contains
       class(change_t), intent(in) :: self
       integer :: k
 
-      may_fork = index(self%key, 'body(') /= 1 .and. index(self%key, 'solid(') /= 1
+      may_fork = all([index(self%key, 'body('), index(self%key, 'solid('), index(self%key, 'sponge(')] /= 1)
       do k = 1, size(of_the_particles)
          if (index(self%key, trim(of_the_particles(k))) == 1) may_fork = .false.
       end do

@@ -57,6 +57,7 @@ contains
          if (has%solids) call row%add('W_solid', energy, b%w_solid)
          if (has%solids) call row%add('W_stat', energy, b%w_stat)
          if (has%solids) call row%add('W_pen', energy, b%w_pen)
+         if (has%sponges) call row%add('Q_sponge', energy, b%q_sponge)
       end associate
    end subroutine add_energies
 
@@ -77,6 +78,7 @@ contains
          if (has%solids) call row%add('W_solid/dE', share, b%w_solid/de)
          if (has%solids) call row%add('W_stat/dE', share, b%w_stat/de)
          if (has%solids) call row%add('W_pen/dE', share, b%w_pen/de)
+         if (has%sponges) call row%add('Q_sponge/dE', share, b%q_sponge/de)
          call row%add('balance_error/dE', share, b%balance_error)
       end associate
    end subroutine add_shares

@@ -21,6 +21,7 @@ module preliminary
    use scene_keys, only: resolution_range
    use scene_setup, only: count_particles, set_up_model, set_up_particles
    use settings, only: is_wall, settings_t
+   use sponge_check, only: largest_rate
    use step_check, only: check_step
    use step_state, only: step_t
    use stopping, only: stopping_t
@@ -125,6 +126,8 @@ contains
          if (closed(domain%bottom, domain%top)) least = max(least, least_between*d/extent(2))
          coarse%scene%resolution = min(max(resolution, least), scene%scene%resolution)
       end associate
+      ! Its steps are longer.
+      if (allocated(coarse%sponges)) coarse%sponges%rate = min(coarse%sponges%rate, largest_rate(coarse))
       ! The run proper may end early, and then the flow must not be asked what it does later.
       if (scene%time%max_steps > 0) &
          coarse%time%end_time = min(scene%time%end_time, scene%time%max_steps*longest_step(scene))

@@ -23,6 +23,7 @@ module report
    use summary, only: summary_t
    use text, only: short, to_text
    use timers, only: timers_t
+   use wave_motions, only: waves_text
    implicit none
    private
 
@@ -40,6 +41,7 @@ contains
       type(model_t), intent(in) :: model
       type(cost_t), intent(in) :: costs
       character(160) :: lines(12)
+      character(:), allocatable :: waves
 
       lines(1) = 'particles     '//to_text(costs%particles)//', d/dx = '//short(scene%scene%resolution) &
                  //', h = '//short(model%kernel%h/model%dx)//' dx = '//short(model%kernel%h)
@@ -57,7 +59,12 @@ contains
       lines(10) = 'output        '//output_text(scene)//', about '//short(output_bytes(scene, costs)/1.0e6_dp)//' MB'
       lines(11) = 'not written   '//not_written(scene)
       lines(12) = 'dynsph        '//version//' '//git_id//' '//build_type
-      call log%box(trim(scene%scene%title), lines)
+      waves = waves_text(scene)
+      if (waves == '') then
+         call log%box(trim(scene%scene%title), lines)
+      else
+         call log%box(trim(scene%scene%title), [lines(:5), [character(160) :: 'waves         '//waves], lines(6:)])
+      end if
    end subroutine start_box
 
    ! Of the viscosity that acts everywhere, over the reference length and over a particle.
@@ -148,6 +155,8 @@ contains
          if (has%periodic) words = words//', periodic ('//sides_text(kind == periodic_side)//')'
       end associate
       if (has%solids) words = words//', '//solids_text(model)
+      if (has%sponges) words = words//', '//to_text(size(model%sponges))//trim(merge(' sponge ', ' sponges', &
+                                                                                    size(model%sponges) == 1))
       if (has%eddies) words = words//', strain rate'
       if (has%viscosity) words = words//', viscosity'
       if (has%diffusion) words = words//', density diffusion'
@@ -282,6 +291,7 @@ contains
       if (budget%has%force) words = words//'work of the force '//short(budget%w_f/budget%normaliser)//', '
       if (budget%has%solids) words = words//'work of solids ' &
          //short((budget%w_solid + budget%w_stat + budget%w_pen)/budget%normaliser)//' (W_solid + W_stat + W_pen), '
+      if (budget%has%sponges) words = words//'taken by sponges '//short(budget%q_sponge/budget%normaliser)//', '
       words = words//'largest balance error '//short(budget%largest_error)
    end function works_text
 
@@ -374,6 +384,7 @@ contains
          if (has%solids) call file%add('W_solid', b%w_solid/de)
          if (has%solids) call file%add('W_stat', b%w_stat/de)
          if (has%solids) call file%add('W_pen', b%w_pen/de)
+         if (has%sponges) call file%add('Q_sponge', b%q_sponge/de)
          if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
          if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
          if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)

@@ -19,6 +19,7 @@ module scene_setup
    use solution_register, only: new_solution
    use solid_outlines, only: motion_of, solid_outline
    use solids, only: new_obstacle, obstacle_t, solid_t
+   use sponges, only: sponge_t
    use square_lattice, only: lattice_crowd
    implicit none
    private
@@ -51,6 +52,7 @@ contains
          allocate (model%solids(size(scene%solids)))
          model%solids(:) = set_up_solids(scene)
       end if
+      if (has_sponges(scene)) model%sponges = set_up_sponges(scene)
       model%dynamic = scene%model%diffusion == 'dynamic'
       if (model%dynamic) then
          call set_up_dynamic(scene, model)
@@ -108,6 +110,25 @@ contains
          end associate
       end do
    end function set_up_solids
+
+   pure logical function has_sponges(scene)
+      type(settings_t), intent(in) :: scene
+
+      has_sponges = .false.
+      if (allocated(scene%sponges)) has_sponges = size(scene%sponges) > 0
+   end function has_sponges
+
+   pure function set_up_sponges(scene) result(sponges)
+      type(settings_t), intent(in) :: scene
+      type(sponge_t) :: sponges(size(scene%sponges))
+      integer :: k
+
+      do k = 1, size(sponges)
+         associate (input => scene%sponges(k))
+            sponges(k) = sponge_t(input%lower, input%upper, input%rate, input%towards == 'left')
+         end associate
+      end do
+   end function set_up_sponges
 
    ! The solids where they are at t = 0.
    pure function obstacles_of(scene) result(obstacles)

@@ -3,7 +3,7 @@
 !! Source: sec. 5 of the paper. Energies are normalised by Delta E_Mtot, what the fluid can lose until it rests;
 !! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
 !! the uniform force gave, W_solid, W_stat and W_pen what solids gave: by -F.U, by the hydrostatic parts of their ghosts' pressure,
-!! and by putting back particles that got into them.
+!! and by putting back particles that got into them; Q_sponge is what sponge layers have taken.
 module budget
    use archive, only: archive_t
    use box, only: bottom_wall, is_wall, left_wall, right_wall
@@ -25,6 +25,7 @@ module budget
    type :: works_t
       real(dp) :: alpha = 0, delta = 0, walls = 0, force = 0
       real(dp) :: solids = 0, still = 0, pushed = 0   !! W_solid, W_stat, W_pen
+      real(dp) :: sponges = 0
    contains
       procedure :: turned_over
    end type works_t
@@ -43,6 +44,7 @@ module budget
       real(dp) :: w_s = 0                    !! work of the walls: of their images, and of those that move
       real(dp) :: w_f = 0                    !! work of the uniform force
       real(dp) :: w_solid = 0, w_stat = 0, w_pen = 0   !! work of solids (not kept: of the steps)
+      real(dp) :: q_sponge = 0               !! taken by sponge layers, > 0 (not kept: of the steps)
       real(dp) :: q_omega = 0                !! mu int int vorticity**2 dA dt with the real viscosity mu
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
@@ -82,7 +84,8 @@ contains
       real(dp) :: solids(2)
 
       solids = run%work_solids()
-      works = works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force, solids(1), run%work_still, solids(2))
+      works = works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force, solids(1), run%work_still, solids(2), &
+                      run%given_by_sponges())
    end function works_of
 
    !> Sum of the works' sizes.
@@ -90,7 +93,7 @@ contains
       class(works_t), intent(in) :: self
 
       turned_over = abs(self%alpha) + abs(self%delta) + abs(self%walls) + abs(self%force) + abs(self%solids) &
-                    + abs(self%still) + abs(self%pushed)
+                    + abs(self%still) + abs(self%pushed) + abs(self%sponges)
    end function turned_over
 
    !> Sum of all masses.
@@ -184,8 +187,9 @@ contains
       self%w_solid = works%solids
       self%w_stat = works%still
       self%w_pen = works%pushed
+      self%q_sponge = 0 - works%sponges
       self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%w_f - works%solids - works%still &
-                            - works%pushed - self%initial%total())/self%normaliser
+                            - works%pushed - works%sponges - self%initial%total())/self%normaliser
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
@@ -202,7 +206,8 @@ contains
 
       call measure_energies(model, p, now)
       gained = now%total() - self%initial%total()
-      missing = abs(gained - works%alpha - works%delta - works%walls - works%force - works%solids - works%still - works%pushed)
+      missing = abs(gained - works%alpha - works%delta - works%walls - works%force - works%solids - works%still - works%pushed &
+                    - works%sponges)
       imbalance = 0
       if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + works%turned_over())
    end function imbalance
@@ -219,7 +224,7 @@ contains
 
       call measure_energies(model, p, now)
       missing = now%total() - self%initial%total() - works%alpha - works%delta - works%walls - works%force - works%solids &
-                - works%still - works%pushed
+                - works%still - works%pushed - works%sponges
       if (abs(missing) > of_the_steps*self%normaliser) self%initial%elastic = self%initial%elastic + missing
    end subroutine begin_balance_anew
 

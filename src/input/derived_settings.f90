@@ -1,5 +1,5 @@
-!> Works out what follows from the keys: the model, boxes around discs, pivots of solids, pressure without weight, the sound speed,
-!! the viscosity.
+!> Works out what follows from the keys: the model, boxes around discs, pivots of solids, strokes of wave makers, pressure without
+!! weight, the sound speed, the viscosity.
 module derived_settings
    use draft, only: draft_t
    use kinds, only: dp
@@ -9,6 +9,7 @@ module derived_settings
    use settings, only: body_settings, is_wall, settings_t, solid_settings
    use solid_outlines, only: motion_of, shape_centroid, solid_radius
    use text, only: to_text
+   use wave_motions, only: resolve_wave_makers
    implicit none
    private
 
@@ -34,6 +35,7 @@ contains
 
       call enclose_discs(draft%scene%bodies)
       if (draft%notes%clean('solid scene')) call resolve_pivots(draft)
+      if (draft%notes%clean('solid scene fluid domain')) call resolve_wave_makers(draft)
       if (draft%notes%clean('fluid force domain')) call resolve_pressures(draft)
       if (draft%notes%clean('fluid')) call resolve_sound_speed(draft)
       if (draft%notes%clean('fluid scene')) call resolve_viscosity(draft)

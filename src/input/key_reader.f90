@@ -22,6 +22,7 @@ contains
 
       allocate (draft%scene%bodies(draft%document%count_of('body')))
       allocate (draft%scene%solids(draft%document%count_of('solid')))
+      allocate (draft%scene%sponges(draft%document%count_of('sponge')))
       allocate (draft%scene%probes(draft%document%count_of('probe')))
       allocate (draft%scene%gauges(draft%document%count_of('gauge')))
       call visit_groups(draft, checking=.false.)

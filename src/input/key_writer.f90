@@ -66,7 +66,7 @@ contains
       type(resting_force_t) :: force
       integer :: g, number
 
-      allocate (defaults%bodies(1), defaults%solids(1), defaults%probes(1), defaults%gauges(1))
+      allocate (defaults%bodies(1), defaults%solids(1), defaults%sponges(1), defaults%probes(1), defaults%gauges(1))
       copy = as_given(scene)
       ! Hydrostatic pressure, the default, is none where nothing presses.
       force = resting_force(scene)
@@ -143,7 +143,7 @@ contains
          associate (key => keys%items(i))
             if (.not. key%active) cycle
             phrase = key%value_text()
-            if (.not. key%required .and. phrase == default_keys%items(i)%value_text()) cycle
+            if (.not. (key%required .or. key%follows) .and. phrase == default_keys%items(i)%value_text()) cycle
             phrase = trim(key%name)//' = '//phrase
          end associate
          if (index(line, ' = ') > 0) line = line//','
@@ -181,7 +181,7 @@ contains
       type(keys_t) :: keys
       integer :: g, i
 
-      allocate (defaults%bodies(1), defaults%solids(1), defaults%probes(1), defaults%gauges(1))
+      allocate (defaults%bodies(1), defaults%solids(1), defaults%sponges(1), defaults%probes(1), defaults%gauges(1))
       do g = 1, size(groups)
          call list_keys(defaults, solutions, groups(g)%name, 1, keys)
          call lines%add_line('')

@@ -69,7 +69,7 @@ contains
       message = what_is_no_text(content)
       if (message /= '' .and. .not. problem%raised()) call problem%raise(exit_input, file//': '//message)
       if (problem%raised()) then
-         allocate (scene%bodies(0), scene%solids(0), scene%probes(0), scene%gauges(0))
+         allocate (scene%bodies(0), scene%solids(0), scene%sponges(0), scene%probes(0), scene%gauges(0))
       else
          call scan_namelist(content, draft%document, draft%notes)
          do i = 1, size(overrides)

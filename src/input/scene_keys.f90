@@ -20,7 +20,8 @@ module scene_keys
 
    character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
 
-   character(*), parameter :: motion_choices(*) = [character(choice_length) :: 'none', 'uniform', 'oscillation', 'table']
+   character(*), parameter :: motion_choices(*) = &
+      [character(choice_length) :: 'none', 'uniform', 'oscillation', 'table', 'piston', 'flap']
 
    !> What snapshots can hold.
    character(choice_length), parameter :: field_names(*) = &
@@ -42,6 +43,7 @@ module scene_keys
       known_group_t('tank', 'How the box moves; the scene is seen from it.', .false., .false.), &
       known_group_t('body', 'A block of fluid at the start.', .true., .true.), &
       known_group_t('solid', 'A rigid body in the fluid, at rest or moved.', .false., .true.), &
+      known_group_t('sponge', 'A layer that slows the fluid down by -rate s**2 u, s from 0 to 1 across it.', .false., .true.), &
       known_group_t('model', 'The diffusive terms.', .false., .false.), &
       known_group_t('exact', 'The exact solution that the scene follows; errors are written to errors.dat.', .false., .false.), &
       known_group_t('time', 'The time step and the end of the run.', .true., .false.), &
@@ -74,6 +76,8 @@ contains
       n = 1
       if (group == 'body') n = size(scene%bodies)
       if (group == 'solid') n = size(scene%solids)
+      if (group == 'sponge') n = 0
+      if (group == 'sponge' .and. allocated(scene%sponges)) n = size(scene%sponges)
       if (group == 'probe') n = size(scene%probes)
       if (group == 'gauge') n = size(scene%gauges)
    end function count_groups
@@ -143,6 +147,15 @@ contains
       case ('solid')
          call add_keys_of_shape(scene%solids(number), keys)
          call add_keys_of_motion(scene%solids(number), motion_choices, keys)
+      case ('sponge')
+         associate (sponge => scene%sponges(number))
+            call keys%add(key_t('lower', 'Lower left corner, x and y.', 'm', required=.true., vector=sponge%lower))
+            call keys%add(key_t('upper', 'Upper right corner, x and y.', 'm', required=.true., vector=sponge%upper))
+            call keys%add(key_t('towards', 'The side at which it ends, and is strongest.', &
+                                choices=[character(choice_length) :: 'left', 'right']), sponge%towards)
+            call keys%add(key_t('rate', 'Rate at its end, at most half of c0/h; 4 pi/T is good for a layer of one wave length.', &
+                                '1/s', positive, .true., sponge%rate))
+         end associate
       end select
    end subroutine add_keys_of_fluid
 
@@ -206,22 +219,17 @@ contains
       class(motion_settings), intent(inout), target :: moved
       character(*), intent(in) :: choices(:)   ! of motions
       type(keys_t), intent(inout) :: keys
+      character(:), allocatable :: meaning
 
-      call keys%add(key_t('motion', 'How it moves from where it is drawn: shifts, and turns about pivot.', &
-                          choices=choices), moved%motion)
+      meaning = 'How it moves from where it is drawn: shifts, and turns about pivot.'
+      if (any(choices == 'piston')) meaning = meaning//' A piston or a flap makes waves that run to the right.'
+      call keys%add(key_t('motion', meaning, choices=choices), moved%motion)
       if (any(choices == 'uniform')) then
          call keys%only_with("motion = 'uniform'", moved%motion == 'uniform')
          call keys%add(key_t('velocity', 'Velocity, x and y.', 'm/s', vector=moved%velocity))
          call keys%add(key_t('spin', 'Rate at which it turns, counter-clockwise about pivot.', 'degrees/s', number=moved%spin))
       end if
-      call keys%only_with("motion = 'oscillation'", moved%motion == 'oscillation')
-      call keys%add(key_t('amplitude', 'Amplitude of its shift, x and y.', 'm', vector=moved%amplitude))
-      call keys%add(key_t('swing', 'Amplitude of its angle.', 'degrees', number=moved%swing))
-      call keys%add(key_t('period', 'Period of the oscillation.', 's', positive, .true., moved%period))
-      call keys%add(key_t('phase', 'Phase of the oscillation at t = 0; with 0 it begins in the middle.', 'degrees', &
-                          number=moved%phase))
-      call keys%add(key_t('ramp', 'Time within which the oscillation sets in. 0: at once.', 's', not_negative, &
-                          number=moved%ramp))
+      call add_keys_of_oscillation(moved, any(choices == 'piston'), keys)
       call keys%only_with("motion = 'table'", moved%motion == 'table')
       call keys%add(key_t('table', 'Its way in 2 to 2000 rows of time [s], shift in x and y [m] and angle [degrees]; it rests '// &
                           'after the last.', 's, m, degrees', numbers=moved%table))
@@ -229,6 +237,35 @@ contains
                           "from the scene's file on. It is read in as table."), moved%table_file)
       call keys%only_with('', .true.)
    end subroutine add_keys_of_motion
+
+   subroutine add_keys_of_oscillation(moved, may_make_waves, keys)
+      class(motion_settings), intent(inout), target :: moved
+      logical, intent(in) :: may_make_waves
+      type(keys_t), intent(inout) :: keys
+      character(:), allocatable :: motions, by_default   ! in words
+      logical :: makes_waves
+
+      motions = "motion = 'oscillation'"
+      by_default = ''
+      makes_waves = moved%motion == 'piston' .or. moved%motion == 'flap'
+      call keys%only_with(motions, moved%motion == 'oscillation')
+      call keys%add(key_t('amplitude', 'Amplitude of its shift, x and y.', 'm', vector=moved%amplitude))
+      call keys%add(key_t('swing', 'Amplitude of its angle.', 'degrees', number=moved%swing))
+      if (may_make_waves) then
+         motions = motions//", 'piston' or 'flap'"
+         by_default = '; by default 0, of wave makers a period'
+         call keys%only_with("motion = 'piston' or 'flap'", makes_waves)
+         call keys%add(key_t('wave_height', 'Height of the waves; the stroke follows by linear theory. The pivot of a flap is '// &
+                             'its hinge on the floor.', 'm', positive, .true., moved%wave_height))
+         call keys%add(key_t('depth', 'Depth of the still water before it.', 'm', positive, .true., moved%depth))
+      end if
+      call keys%only_with(motions, moved%motion == 'oscillation' .or. makes_waves)
+      call keys%add(key_t('period', 'Period of the oscillation.', 's', positive, .true., moved%period))
+      call keys%add(key_t('phase', 'Phase of the oscillation at t = 0; with 0 it begins in the middle.', 'degrees', &
+                          number=moved%phase))
+      call keys%add(key_t('ramp', 'Time within which the oscillation sets in'//by_default//'. 0: at once.', 's', not_negative, &
+                          number=moved%ramp, follows=may_make_waves))
+   end subroutine add_keys_of_oscillation
 
    ! How it is computed.
    subroutine add_keys_of_method(scene, solutions, group, keys)

@@ -9,7 +9,7 @@ module settings
    private
 
    public :: settings_t, scene_settings, domain_settings, fluid_settings, force_settings, body_settings
-   public :: exact_settings, model_settings, time_settings, output_settings, probe_settings, gauge_settings
+   public :: exact_settings, model_settings, time_settings, output_settings, probe_settings, gauge_settings, sponge_settings
    public :: motion_settings, solid_settings, tank_settings, number_list_t, is_wall
 
    integer, parameter, public :: max_fields = 12       !! names that &output fields can hold
@@ -20,8 +20,8 @@ module settings
    integer, parameter, public :: most_numbers = 8000   !! numbers that a key may list
 
    !> The namelist groups in the order in which they are written.
-   character(6), parameter, public :: group_names(13) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'tank', 'body', &
-                                                         'solid', 'model', 'exact', 'time', 'output', 'probe', 'gauge']
+   character(6), parameter, public :: group_names(14) = [character(6) :: 'scene', 'domain', 'fluid', 'force', 'tank', 'body', &
+                                                         'solid', 'sponge', 'model', 'exact', 'time', 'output', 'probe', 'gauge']
 
    !> The sides of the box in the order of `side_kinds`.
    character(6), parameter, public :: side_names(4) = [character(6) :: 'left', 'right', 'bottom', 'top']
@@ -85,7 +85,8 @@ module settings
       procedure :: n => numbers_there
    end type number_list_t
 
-   !> How a solid or the tank moves. After reading, `table` holds what its file held.
+   !> How a solid or the tank moves. After reading, `table` holds what its file held, and `amplitude`, `swing` and `ramp` of a wave
+   !! maker are those used.
    type :: motion_settings
       character(choice_length) :: motion = 'none'
       real(dp) :: pivot(2) = 0.0_dp                  !! about which it turns [m]
@@ -93,6 +94,8 @@ module settings
       real(dp) :: spin = 0.0_dp                      !! of uniform motion [degrees/s]
       real(dp) :: amplitude(2) = 0.0_dp              !! of an oscillation [m]
       real(dp) :: swing = 0.0_dp                     !! amplitude of its angle [degrees]
+      real(dp) :: wave_height = 0.0_dp               !! that a wave maker is to make [m]
+      real(dp) :: depth = 0.0_dp                     !! of the still water before it [m]
       real(dp) :: period = 0.0_dp                    !! [s]
       real(dp) :: phase = 0.0_dp                     !! [degrees]
       real(dp) :: ramp = 0.0_dp                      !! within which an oscillation sets in [s]
@@ -119,6 +122,14 @@ module settings
       character(choice_length) :: surface = 'free_slip'
       character(choice_length) :: fluid = 'cut'      !! what to do with a body of fluid that overlaps it
    end type solid_settings
+
+   !> &sponge: where waves end.
+   type :: sponge_settings
+      real(dp) :: lower(2) = 0.0_dp   !! lower left corner [m]
+      real(dp) :: upper(2) = 0.0_dp   !! upper right corner [m]
+      character(choice_length) :: towards = 'right'   !! the side at which it is strongest
+      real(dp) :: rate = 0.0_dp       !! there [1/s]
+   end type sponge_settings
 
    !> &exact: the exact solution that the scene follows.
    type :: exact_settings
@@ -196,6 +207,7 @@ module settings
       type(output_settings) :: output
       type(body_settings), allocatable :: bodies(:)
       type(solid_settings), allocatable :: solids(:)
+      type(sponge_settings), allocatable :: sponges(:)
       type(probe_settings), allocatable :: probes(:)
       type(gauge_settings), allocatable :: gauges(:)
    contains

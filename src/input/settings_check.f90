@@ -16,6 +16,7 @@ module settings_check
    use scene_keys, only: largest_mach
    use settings, only: settings_t
    use solid_check, only: check_solids
+   use sponge_check, only: check_sponges
    use tank_check, only: check_tank
    use text, only: quoted, rounded_down, rounded_up, short, to_text
    implicit none
@@ -45,6 +46,7 @@ contains
       call check_tank(draft)
       call check_bodies(draft)
       call check_solids(draft)
+      call check_sponges(draft)
       if (draft%notes%clean('body scene')) call check_particle_number(draft)
       if (draft%notes%clean('time model fluid scene')) call check_step_number(draft)
       call draft%solutions%check(draft%document, draft%scene, draft%notes)

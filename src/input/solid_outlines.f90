@@ -73,7 +73,7 @@ contains
          motion%kind = uniform
          motion%velocity = moved%velocity
          motion%spin = moved%spin*degree
-      case ('oscillation')
+      case ('oscillation', 'piston', 'flap')
          motion%kind = oscillating
          motion%amplitude = moved%amplitude
          motion%swing = moved%swing*degree

@@ -7,6 +7,7 @@ module model
    use linear_stability, only: stability_t
    use motions, only: motion_t, pose_t, turn
    use solids, only: solid_t
+   use sponges, only: sponge_t
    implicit none
    private
 
@@ -21,6 +22,7 @@ module model
       logical :: potential = .false.     !! gravity or a central force; E_P
       logical :: walls = .false.         !! W_s
       logical :: solids = .false.        !! bodies in the fluid; W_solid, W_stat, W_pen
+      logical :: sponges = .false.       !! layers that slow the fluid down; Q_sponge
       logical :: sticky_solids = .false. !! some that the fluid sticks to
       logical :: no_slip = .false.       !! walls that the fluid sticks to
       logical :: periodic = .false.      !! sides
@@ -35,6 +37,7 @@ module model
       type(kernel_t) :: kernel        !! W and its gradient
       type(box_t) :: box              !! its sides at time 0
       type(solid_t), allocatable :: solids(:)   !! as drawn
+      type(sponge_t), allocatable :: sponges(:)   !! allocated where there are any
       real(dp) :: dx = 0              !! [m] initial particle spacing
       real(dp) :: c0 = 0              !! [m/s] sound speed
       real(dp) :: rho0 = 0            !! [kg/m3] density at p = 0
@@ -111,6 +114,7 @@ contains
       terms%potential = terms%gravity .or. terms%central
       terms%walls = any(is_wall(self%box%kind))
       terms%solids = self%has_solids()
+      terms%sponges = allocated(self%sponges)
       if (terms%solids) terms%sticky_solids = any(self%solids%no_slip)
       terms%no_slip = any(self%box%kind == no_slip_wall)
       terms%periodic = any(self%box%kind == periodic_side)

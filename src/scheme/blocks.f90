@@ -26,6 +26,7 @@ module blocks
       real(dp) :: wall_power(block_groups) = 0    !! [W/m] of no-slip walls that move
       real(dp) :: solid_power(block_groups) = 0   !! [W/m] that solids give in a stage, friction left out,
       real(dp) :: solid_work(block_groups) = 0    !! [J/m] and in the step: part of the walls' work
+      real(dp) :: sponge_work(block_groups) = 0   !! [J/m] by sponge layers, <= 0
       real(dp), allocatable :: struck(:, :)       !! (4, solids) of particles put back: impulse on it, moment of that, their energy
       real(dp) :: speed_2 = 0        !! max |u|**2
       real(dp) :: pressure = 0       !! max p/rho

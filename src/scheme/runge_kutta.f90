@@ -12,6 +12,7 @@ module runge_kutta
    use kinds, only: dp, sp
    use model, only: model_t
    use particles, only: particles_t, state_t
+   use sponges, only: sponge_t
    use strips, only: group_slots
    implicit none
    private
@@ -53,6 +54,7 @@ contains
          sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
          call add_terms(model, p, i0, n, weight, now, rates, sums%work)
          if (has_inertia(moment%box)) call add_inertia(moment%box, n, weight, now, rates, sums%work(:, 4))
+         if (allocated(model%sponges)) call add_sponges(model%sponges, n, weight, now, rates, sums%sponge_work)
          if (model%has_solids()) sums%solid_work = sums%solid_work + weight*sums%solid_power
          if (stage == scheme%stages) then
             call end_step(scheme%share, weight, p, i0, n, now, rates)
@@ -208,6 +210,26 @@ contains
       end do
       call add_force(n, weight, now, x, y, rates, work)
    end subroutine add_inertia
+
+   ! What sponge layers take.
+   pure subroutine add_sponges(sponges, n, weight, now, rates, work)
+      type(sponge_t), intent(in) :: sponges(:)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: weight         !! dt b_k
+      type(stage_t), intent(in) :: now
+      type(rates_t), intent(inout) :: rates
+      real(dp), intent(inout) :: work(n/group_slots)
+      real(dp) :: rate, x(n), y(n)
+      integer :: k
+
+      do k = 1, n
+         rate = 0
+         if (now%m(k) > 0) rate = sum(sponges%rate_at(now%x(k), now%y(k)))
+         x(k) = -rate*now%u(k)
+         y(k) = -rate*now%v(k)
+      end do
+      call add_force(n, weight, now, x, y, rates, work)
+   end subroutine add_sponges
 
    ! -w**2 (r - centre); nothing for dummies, which are far away.
    pure subroutine add_central_force(model, now, n, rates)

@@ -21,6 +21,7 @@ module step_outcome
       real(dp) :: work(4) = 0                  !! [J/m] as in block_t
       real(dp) :: moving_walls = 0             !! [W/m] of no-slip walls that move
       real(dp) :: solid_work = 0               !! [J/m] that the fluid got by the pressure of solids
+      real(dp) :: sponge_work = 0              !! [J/m] that the fluid got by sponge layers
       real(dp), allocatable :: solids(:, :)    !! (n_of_solid, solids) as in step_t
       integer(i8) :: crossings = 0, singular = 0
       real(dp) :: speed_2 = 0, pressure = 0, largest_s = 0   !! as in block_t
@@ -73,7 +74,7 @@ contains
       type(block_t), intent(in) :: blocks(:)
       type(outcome_t), intent(inout) :: all   !! with the own overreach
       logical, intent(inout) :: notes(:)
-      integer, parameter :: n_sums = 10
+      integer, parameter :: n_sums = 11
       real(dp), allocatable :: table(:, :)    ! sums of each strip
       real(dp), allocatable :: largest(:)
       type(exact_sum_t), allocatable :: sums(:)
@@ -84,9 +85,9 @@ contains
       allocate (table(n_sums, size(near%first_block) - 1))
       !$omp parallel do default(none) shared(near, blocks, table) schedule(dynamic, max(1, size(near%first_block)/256))
       do k = 1, size(table, 2)
-         table(:6, k) = strip_powers(near, k, blocks)
+         table(:7, k) = strip_powers(near, k, blocks)
          associate (first => near%first_block(k), last => near%first_block(k + 1) - 1)
-            table(7:, k) = [real(sum(blocks(first:last)%crossings), dp), real(sum(blocks(first:last)%singular), dp), &
+            table(8:, k) = [real(sum(blocks(first:last)%crossings), dp), real(sum(blocks(first:last)%singular), dp), &
                             sum(near%margins(first:last)%next_acceleration), real(last - first + 1, dp)]
          end associate
       end do
@@ -111,9 +112,10 @@ contains
       all%work = totals(:4)
       all%moving_walls = totals(5)
       all%solid_work = totals(6)
-      all%crossings = nint(totals(7), i8)
-      all%singular = nint(totals(8), i8)
-      if (totals(10) > 0) all%mean_acceleration = totals(9)/totals(10)
+      all%sponge_work = totals(7)
+      all%crossings = nint(totals(8), i8)
+      all%singular = nint(totals(9), i8)
+      if (totals(11) > 0) all%mean_acceleration = totals(10)/totals(11)
       if (model%has_solids()) all%solids = reshape(totals(n_sums + 1:), [n_of_solid, size(model%solids)])
       all%speed_2 = largest(1)
       all%pressure = largest(2)
@@ -189,13 +191,14 @@ contains
       type(neighbours_t), intent(in) :: near
       integer, intent(in) :: strip   !! counted from the first own one
       type(block_t), intent(in) :: blocks(:)
-      real(dp) :: powers(6)
+      real(dp) :: powers(7)
       integer :: b, g
 
       powers = 0
       do b = near%first_block(strip), near%first_block(strip + 1) - 1
          do g = 1, nl*near%blocks(b)%n_clusters/group_slots
-            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g), blocks(b)%solid_work(g)]
+            powers = powers + [blocks(b)%work(g, :), blocks(b)%wall_power(g), blocks(b)%solid_work(g), &
+                                blocks(b)%sponge_work(g)]
          end do
       end do
    end function strip_powers
@@ -219,6 +222,7 @@ contains
       run%work_walls = run%work_walls + all%work(3) + moving_walls - all%solid_work
       if (model%has_solids()) call run%take_solids(all%solid_work, all%solids)
       run%work_force = run%work_force + all%work(4)
+      if (allocated(model%sponges)) call run%take_sponges(all%sponge_work)
       run%crossings = run%crossings + all%crossings
       run%singular = run%singular + all%singular
       call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)

@@ -30,6 +30,7 @@ module step_state
       real(dp) :: work_still = 0            !! energy given by solids besides -F.U: by the hydrostatic parts of their pressure
       real(dp), allocatable :: solids(:, :) !! (n_of_solid, solids) energy given by each by -F.U, of it friction's; impulse (2) by
                                             !! particles that were put back, its moment, energy given to them
+      real(dp), allocatable :: work_sponges !! energy given by sponge layers, <= 0; where there are any
       real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
       real(dp) :: speed = 0                 !! max |u| of the base state
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
@@ -40,6 +41,8 @@ module step_state
       logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
    contains
       procedure :: take_solids
+      procedure :: take_sponges
+      procedure :: given_by_sponges
       procedure :: work_solids
       procedure :: archive => archive_step
    end type step_t
@@ -65,6 +68,7 @@ contains
       call file%keep('work_force', self%work_force)
       if (allocated(self%solids)) call file%keep('work_still', self%work_still)
       if (allocated(self%solids)) call archive_solids(self, file)
+      if (allocated(self%work_sponges)) call file%keep('work_sponges', self%work_sponges)
       call file%keep('mach', self%mach)
       call file%keep('speed', self%speed)
       call file%keep('variation', self%variation)
@@ -94,6 +98,23 @@ contains
       self%work_still = self%work_still + given - sum(solids(1, :) - solids(2, :))
    end subroutine take_solids
 
+   !> Adds what a step's sponge layers have given.
+   pure subroutine take_sponges(self, given)
+      class(step_t), intent(inout) :: self
+      real(dp), intent(in) :: given   !! [J/m]
+
+      if (.not. allocated(self%work_sponges)) allocate (self%work_sponges, source=0.0_dp)
+      self%work_sponges = self%work_sponges + given
+   end subroutine take_sponges
+
+   !> Energy that sponge layers have given [J/m].
+   pure real(dp) function given_by_sponges(self) result(work)
+      class(step_t), intent(in) :: self
+
+      work = 0
+      if (allocated(self%work_sponges)) work = self%work_sponges
+   end function given_by_sponges
+
    !> Energy that solids have given: by -F.U; by putting particles back [J/m].
    pure function work_solids(self) result(work)
       class(step_t), intent(in) :: self
@@ -111,6 +132,7 @@ contains
       real(dp) :: largest(3)   ! |u|**2, p/rho, |rho - rho0|
 
       if (model%has_solids()) allocate (run%solids(n_of_solid, size(model%solids)), source=0.0_dp)
+      if (allocated(model%sponges)) allocate (run%work_sponges, source=0.0_dp)
       associate (own => p%id(1:p%n_own) > 0, s => p%base%s(1:p%n_own))
          largest = [maxval(p%base%u(1:p%n_own)**2 + p%base%v(1:p%n_own)**2, mask=own), &
                     maxval(specific_pressure(model%c0, model%rho0, s), mask=own), maxval(abs(s), mask=own)]

@@ -25,7 +25,7 @@ prints(version_is_said any "dynsph ${PROJECT_VERSION} .*GCC" --version)
 prints(help_is_said any "Usage: dynsph;--overwrite;Exit codes" --help)
 
 add_test(NAME template_is_valid COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:dynsph> -DSCRATCH=${here}/template.nml
-   "-DVALUES=scene.resolution=10|domain.upper=2.0, 1.5|fluid.sound_speed=10.0|body.lower=0.0, 0.0|body.upper=1.0, 1.0|time.end_time=1.0|solid.name='lid'|solid.vertices=1.2, 0.9, 3.0, 0.9, 3.0, 2.0, 1.2, 2.0|probe.name='P1'|probe.position=2.0, 0.1|gauge.name='H1'|gauge.at=1.0"
+   "-DVALUES=scene.resolution=10|domain.upper=2.0, 1.5|fluid.sound_speed=10.0|body.lower=0.0, 0.0|body.upper=1.0, 1.0|time.end_time=1.0|solid.name='lid'|solid.vertices=1.2, 0.9, 3.0, 0.9, 3.0, 2.0, 1.2, 2.0|sponge.lower=0.5, 0.0|sponge.upper=1.0, 1.0|sponge.rate=1.0|probe.name='P1'|probe.position=2.0, 0.1|gauge.name='H1'|gauge.at=1.0"
    -P ${scenes}/check_template.cmake)
 add_test(NAME input_page_is_up_to_date COMMAND ${CMAKE_COMMAND} "-DCOMMAND=$<TARGET_FILE:dynsph>;--keys"
    -DFILE=${PROJECT_SOURCE_DIR}/docs/input.md -DSCRATCH=${here}/input.md -P ${scenes}/same_output.cmake)

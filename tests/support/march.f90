@@ -67,7 +67,7 @@ contains
       class(end_t), intent(in) :: self
 
       balance_error = self%last%total() - self%first%total() - self%run%work_alpha - self%run%work_delta - self%run%work_walls &
-                      - self%run%work_force
+                      - self%run%work_force - self%run%given_by_sponges()
    end function balance_error
 
 end module march
