@@ -190,8 +190,8 @@ contains
             call lines%add_line('')
             call lines%add_line(described(groups(g)))
             call lines%add_line('')
-            call lines%add_line('| key | default | unit | range or choices | meaning |')
-            call lines%add_line('| --- | --- | --- | --- | --- |')
+            call lines%add_line('|key|default|unit|range or choices|meaning|')
+            call lines%add_line('|---|---|---|---|---|')
          else
             call lines%add_line('! '//described(groups(g)))
             call lines%add_line('&'//trim(groups(g)%name))
@@ -212,9 +212,9 @@ contains
       if (associated(key%numbers)) row = 'none'
       if (key%follows) row = 'follows'
       if (key%required) row = '**required**'
-      row = '| `'//trim(key%name)//'` | '//row//' | '//trim(key%unit)//' | '//key%range_text()//' | '//escaped(trim(key%meaning))
+      row = '|`'//trim(key%name)//'`|'//row//'|'//trim(key%unit)//'|'//key%range_text()//'|'//escaped(trim(key%meaning))
       if (key%condition /= '') row = row//' Only with '//trim(key%condition)//'.'
-      row = row//' |'
+      row = row//'|'
    end function table_row
 
    ! What a group is, and how many there may be.
