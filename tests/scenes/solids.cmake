@@ -62,7 +62,7 @@ foreach(case IN ITEMS near far)
    endif()
    add_test(NAME solid_${case}_dam_runs COMMAND ${CMAKE_COMMAND}
       "-DCOMMAND=${with_one};--quiet;--set;scene.resolution=20;--set;time.end_time=1;--set;output.energy=1 steps;--set;output.snapshots=never;--output;solid_${case}_dam;${path}"
-      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -P ${run_and_expect})
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -DCREATED=solid_${case}_dam -P ${run_and_expect})
    set_tests_properties(solid_${case}_dam_runs PROPERTIES FIXTURES_SETUP solid_dams TIMEOUT 60)
 endforeach()
 add_test(NAME a_far_solid_changes_no_bit COMMAND ${DYNSPH_AWK} -v "names=time E_K E_P E_C Q_alpha Q_delta W_s max_speed dt"
