@@ -18,7 +18,7 @@ program main
    use scene_input, only: load_scene, read_settings_text
    use room, only: check_room
    use scene_run, only: output_directory, run_into_directory
-   use scene_setup, only: count_particles, set_up_model
+   use scene_setup, only: check_fluid, count_particles, set_up_model
    use settings, only: settings_t
    use solution_register, only: solutions_t
    use stop_signals, only: stop_signals_t
@@ -93,6 +93,8 @@ contains
          call print_text(shortest_input(solutions_t(), scene), problem)
          return
       end if
+      call check_fluid(scene, problem)
+      if (problem%raised()) return
       if (.not. options%check) then
          call errors_for_signals(pipes=.true.)
          call run_into_directory(options, content, scene, warnings, problem)

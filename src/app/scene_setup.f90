@@ -4,6 +4,7 @@ module scene_setup
    use box, only: bottom_wall, box_t, free_slip_wall, left_wall, no_slip_wall, open_side, periodic_side, right_wall, top_wall
    use communication, only: n_processes, this_process
    use equation_of_state, only: excess_density
+   use errors, only: exit_input, failure
    use initial_pressure, only: pressure_at
    use integrators, only: new_integrator
    use kernel, only: k_2d, new_kernel
@@ -24,7 +25,7 @@ module scene_setup
    implicit none
    private
 
-   public :: set_up_model, set_up_particles, count_particles, needed_features
+   public :: set_up_model, set_up_particles, count_particles, check_fluid, needed_features
 
 contains
 
@@ -178,6 +179,15 @@ contains
          n = n + count_open(scene%bodies(k), scene%spacing(), obstacles_of(scene))
       end do
    end function count_particles
+
+   !> Raises exit_input where solids leave no fluid.
+   subroutine check_fluid(scene, problem)
+      type(settings_t), intent(in) :: scene
+      type(failure), intent(inout) :: problem
+
+      if (count_particles(scene) > 0) return
+      call problem%raise(exit_input, 'no fluid is left: the solids cover each &body; move one of them')
+   end subroutine check_fluid
 
    !> Fills each body with particles.
    !!

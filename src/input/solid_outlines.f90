@@ -45,9 +45,10 @@ contains
    end function solid_outline
 
    !> A solid where it is at t = 0.
-   pure function starting_outline(scene, solid) result(vertices)
+   pure function starting_outline(scene, solid, time) result(vertices)
       type(settings_t), intent(in) :: scene
       type(solid_settings), intent(in) :: solid
+      real(dp), intent(in), optional :: time             !! [s] other than 0
       real(dp) :: vertices(2, n_corners(scene, solid))   !! [m]
       real(dp) :: place(2), velocity(2), acceleration(2)
       type(motion_t) :: motion
@@ -57,6 +58,7 @@ contains
       vertices = solid_outline(scene, solid)
       motion = motion_of(solid)
       pose = motion%at(0.0_dp)
+      if (present(time)) pose = motion%at(time)
       do k = 1, size(vertices, 2)
          call move_point(pose, solid%pivot, vertices(:, k), place, velocity, acceleration)
          vertices(:, k) = place

@@ -37,12 +37,13 @@ contains
 
       outline = starting_outline(draft%scene, draft%scene%solids(number))
       key = ''
-      problem = place_problem(draft%scene, outline)
+      problem = ''
+      if (draft%scene%solids(number)%shape == 'disc') problem = disc_problem(draft%scene, draft%scene%solids(number))
+      if (problem == '') problem = place_problem(draft%scene, outline)
+      if (problem == '') problem = period_problem(draft, number)
       if (problem == '') then
          inner = within_walls(draft%scene, outline, is_wall(draft%scene%side_kinds()))
-         if (draft%scene%solids(number)%shape == 'disc') then
-            problem = disc_problem(draft%scene, draft%scene%solids(number))
-         else
+         if (draft%scene%solids(number)%shape /= 'disc') then
             problem = tip_problem(inner, edges_in_fluid(draft%scene, inner))
             if (problem == '') problem = thin_problem(draft%scene, outline, inner)
          end if
@@ -109,6 +110,35 @@ contains
                    //' apart, too coarse for dx = '//short(scene%spacing())//': make it smaller'
       end if
    end function place_problem
+
+   ! Where a motion leads a solid through a periodic side; '' if it does nowhere. Looked at in steps: a graze may pass.
+   function period_problem(draft, number) result(problem)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: number
+      character(:), allocatable :: problem
+      integer, parameter :: steps = 1000
+      character(choice_length) :: sides(4)
+      real(dp), allocatable :: outline(:, :)
+      real(dp) :: time
+      integer :: k, side
+
+      problem = ''
+      sides = draft%scene%side_kinds()
+      associate (solid => draft%scene%solids(number))
+         if (solid%motion == 'none' .or. .not. any(sides == 'periodic') .or. .not. draft%notes%clean('time')) return
+         allocate (outline(2, n_corners(draft%scene, solid)))
+         do k = 1, steps
+            time = draft%scene%time%end_time*k/steps
+            outline(:, :) = starting_outline(draft%scene, solid, time)
+            do side = 1, 4
+               if (sides(side) /= 'periodic' .or. minval(heights(draft%scene, outline, side)) >= -draft%scene%margin()) cycle
+               problem = 'moves through the periodic '//trim(side_names(side))//' side of &domain at t = '//short(time) &
+                         //': solids cannot come back on the other side; end the run before, or use walls'
+               return
+            end do
+         end do
+      end associate
+   end function period_problem
 
    ! The part of a polygon that some sides of the box leave.
    pure function within_walls(scene, outline, sides) result(inner)

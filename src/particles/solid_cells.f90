@@ -14,7 +14,7 @@ module solid_cells
 
    public :: cell_t, find_cells, move_cell, is_beyond, opposite
 
-   integer, parameter :: most_corners = 12          ! of a cell that walls cut at each time anew
+   integer, parameter :: most_corners = 24          ! of a cell that walls cut at each time anew
    real(dp), parameter :: least_area = 1.0e-6_dp    ! in dx**2; what is less is left out
    real(dp), parameter :: turned_away = -0.5_dp     ! product of the normals of faces that share no ghost
 
@@ -65,6 +65,8 @@ contains
       integer :: i, j, n_row, n_part, n_cells(2)
 
       start = new_obstacle(solid, box)
+      ! What moves may come out from behind a wall.
+      start%is_face = start%is_face .or. solid%motion%moves()
       if (.not. any(start%is_face)) return
       upright = turned(solid%outline, solid%pivot, -solid%angle)
       lower = minval(upright, 2)
@@ -171,7 +173,7 @@ contains
       real(dp), intent(out) :: velocity(2)       !! [m/s] of the solid there
       real(dp), intent(out) :: acceleration(2)   !! [m/s2]
       real(dp), intent(out) :: area              !! [m2]; 0 if it is beyond a wall
-      real(dp) :: corner(2, most_corners + 8), ignored(2), also_ignored(2), drawn(2)
+      real(dp) :: corner(2, 2*most_corners + 8), ignored(2), also_ignored(2), drawn(2)
       integer :: k, n
 
       area = cell%area

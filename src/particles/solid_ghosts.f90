@@ -341,6 +341,11 @@ contains
             from = source + sign*(place - ghost)
             edge = first_crossed(solid%outline, solid%is_face, from, source)
             if (edge == 0) call nearest_edge(solid%outline, solid%is_face, from, edge, distance, foot, normal)
+            if (edge == 0) then
+               mine = 0   ! all of the solid is behind walls
+               shared = 0
+               return
+            end if
             mine = merge(1.0_dp, 0.0_dp, edge == cell%edge)
             shared = merge(1.0_dp, 0.0_dp, .not. opposite(solid%outline, edge, cell%edge))
          end associate

@@ -68,3 +68,17 @@ endforeach()
 add_test(NAME a_far_solid_changes_no_bit COMMAND ${DYNSPH_AWK} -v "names=time E_K E_P E_C Q_alpha Q_delta W_s max_speed dt"
    -f ${scenes}/check_same_columns.awk ${here}/solid_near_dam/energy.dat ${here}/solid_far_dam/energy.dat)
 set_tests_properties(a_far_solid_changes_no_bit PROPERTIES FIXTURES_REQUIRED solid_dams TIMEOUT 30)
+
+# A block that rose through the floor is lifted by the weight of its water, 0.8 (waves and 6 dx of height: 0.86), and fluid stays out
+# of the face that was hidden. (While that had no ghosts there were 3847 crossings.)
+a_solid(risen_block ${scenes}/risen_block.nml "W_pen 0 0.01" "block.force_y 6 0.75 0.95" "energy_balance_error|0|1e-3;wall_crossings|0|400"
+   time.end_time=16)
+
+# What cannot be is refused.
+add_test(NAME refuses_solids_that_leave_no_fluid COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--set;solid.lower=-1,-1;--set;solid.upper=5,1.4;--output;no_fluid;${scenes}/still_block.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=no fluid is left: the solids cover each &body" -P ${run_and_expect})
+add_test(NAME refuses_solids_through_periodic_sides COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--output;through;${scenes}/still_block.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=moves through the periodic right side of &domain at t = 1.6" -P ${run_and_expect})
+set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_through_periodic_sides PROPERTIES TIMEOUT 30)
