@@ -1,9 +1,9 @@
 !> The table of forces on solids, solids.dat.
 module solid_table
    use archive, only: archive_t
-   use cadence, only: cadence_t
    use columns, only: columns_t
    use errors, only: failure
+   use force_table, only: force_table_t
    use kinds, only: dp
    use model, only: model_t, terms_t
    use motions, only: pose_t
@@ -12,7 +12,6 @@ module solid_table
    use settings, only: name_length, settings_t, solid_settings
    use solid_forces, only: measure_solids, solid_force_t
    use step_state, only: n_of_solid, step_t
-   use table, only: table_t
    use time_scale, only: time_scale_t
    implicit none
    private
@@ -22,21 +21,14 @@ module solid_table
    real(dp), parameter :: degree = acos(-1.0_dp)/180
 
    !> The open table and what its last row was of; nothing without solids.
-   type :: solid_table_t
-      type(cadence_t) :: when                                  !! (not kept: of the scene)
-      type(table_t), private :: table
-      type(time_scale_t), private :: scale                     !! (not kept: of the scene)
+   type, extends(force_table_t) :: solid_table_t
       character(name_length), allocatable, private :: names(:) !! (solids) (not kept: of the scene)
       real(dp), private :: time = -1                           !! [s] of the last row; before the first: < 0
       real(dp), allocatable, private :: impulses(:)            !! (3 solids) [N s/m] then, of particles that were put back; [N s]
    contains
       procedure :: start
       procedure :: open => open_table
-      procedure :: is_open
-      procedure :: begin_anew
       procedure :: record
-      procedure :: secure
-      procedure :: finish
       procedure :: archive => archive_solids
    end type solid_table_t
 
@@ -53,22 +45,13 @@ contains
       call file%keep('impulses', self%impulses)
    end subroutine archive_solids
 
-   !> Forgets which file there was; what is a mean since the last row goes on.
-   subroutine begin_anew(self)
-      class(solid_table_t), intent(inout) :: self
-
-      call self%table%begin_anew()
-   end subroutine begin_anew
-
    !> Takes what the scene says.
    subroutine start(self, scene, scale)
       class(solid_table_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(time_scale_t), intent(in) :: scale
-      character(:), allocatable :: message
 
-      call self%when%parse(trim(scene%output%solids), message)
-      self%scale = scale
+      call self%prepare(scene%output%solids, scale)
       if (size(scene%solids) == 0) return
       allocate (self%names(size(scene%solids)))
       self%names(:) = scene%solids%name
@@ -91,22 +74,11 @@ contains
       if (size(scene%solids) == 0 .or. self%when%is_never()) return
       allocate (run%solids(n_of_solid, size(scene%solids)), source=0.0_dp)
       row = row_of(self, model, run, forces)
-      if (self%table%was_begun()) then
-         call self%table%go_on(path, size(row%names), only_check, problem)
-         return
-      end if
-      if (only_check) return
       lines(1) = 'title: '//scene%scene%title
       lines(2) = 'forces of the fluid on each solid, per unit width; moments about its pivot, counter-clockwise'
       lines(3) = 'penetration: of particles that were put back, mean since the row before'
-      call self%table%create(path, lines, row%names, row%units, problem)
+      call self%open_file(path, lines, row, only_check, problem)
    end subroutine open_table
-
-   pure logical function is_open(self)
-      class(solid_table_t), intent(in) :: self
-
-      is_open = self%table%is_open()
-   end function is_open
 
    !> Measures and writes a row.
    subroutine record(self, model, near, p, run, problem)
@@ -199,21 +171,5 @@ contains
 
       n = 2 + 9*size(solids) + 8*count(solids%motion /= 'none')
    end function solid_columns
-
-   !> All rows so far are on the disk.
-   subroutine secure(self, problem)
-      class(solid_table_t), intent(inout) :: self
-      type(failure), intent(inout) :: problem   !! exit_files
-
-      call self%table%secure(problem)
-   end subroutine secure
-
-   !> Closes the table.
-   subroutine finish(self, problem)
-      class(solid_table_t), intent(inout) :: self
-      type(failure), intent(inout) :: problem
-
-      call self%table%close(problem)
-   end subroutine finish
 
 end module solid_table

@@ -2,15 +2,14 @@
 module wall_table
    use archive, only: archive_t
    use box, only: is_wall, no_slip_wall
-   use cadence, only: cadence_t
    use columns, only: columns_t
    use errors, only: failure
+   use force_table, only: force_table_t
    use kinds, only: dp
    use model, only: model_t, terms_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
    use settings, only: settings_t, side_names
-   use table, only: table_t
    use time_scale, only: time_scale_t
    use wall_forces, only: measure_walls, wall_forces_t
    implicit none
@@ -19,19 +18,12 @@ module wall_table
    public :: wall_table_t
 
    !> The open table; nothing where it is not asked for.
-   type :: wall_table_t
-      type(cadence_t) :: when                !! (not kept: of the scene)
-      type(table_t), private :: table
-      type(time_scale_t), private :: scale   !! (not kept: of the scene)
+   type, extends(force_table_t) :: wall_table_t
       logical, private :: in_use = .false.   !! (not kept: of the scene)
    contains
       procedure :: start
       procedure :: open => open_table
-      procedure :: is_open
-      procedure :: begin_anew
       procedure :: record
-      procedure :: secure
-      procedure :: finish
       procedure :: archive => archive_walls
    end type wall_table_t
 
@@ -46,23 +38,14 @@ contains
       call self%table%archive(file)
    end subroutine archive_walls
 
-   !> Forgets which file there was.
-   subroutine begin_anew(self)
-      class(wall_table_t), intent(inout) :: self
-
-      call self%table%begin_anew()
-   end subroutine begin_anew
-
    !> Takes what the scene says.
    subroutine start(self, scene, model, scale)
       class(wall_table_t), intent(inout) :: self
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
       type(time_scale_t), intent(in) :: scale
-      character(:), allocatable :: message
 
-      call self%when%parse(trim(scene%output%walls), message)
-      self%scale = scale
+      call self%prepare(scene%output%walls, scale)
       self%in_use = any(is_wall(model%box%kind)) .and. .not. self%when%is_never()
    end subroutine start
 
@@ -79,21 +62,10 @@ contains
 
       if (.not. self%in_use) return
       row = row_of(self, model, 0.0_dp, wall_forces_t())
-      if (self%table%was_begun()) then
-         call self%table%go_on(path, size(row%names), only_check, problem)
-         return
-      end if
-      if (only_check) return
       lines(1) = 'title: '//scene%scene%title
       lines(2) = 'forces of the fluid on each wall, per unit width: force is of pressure and across it, friction along it'
-      call self%table%create(path, lines, row%names, row%units, problem)
+      call self%open_file(path, lines, row, only_check, problem)
    end subroutine open_table
-
-   pure logical function is_open(self)
-      class(wall_table_t), intent(in) :: self
-
-      is_open = self%table%is_open()
-   end function is_open
 
    !> Measures and writes a row.
    subroutine record(self, model, near, p, time, problem)
@@ -130,21 +102,5 @@ contains
             call row%add(trim(side_names(side))//'.friction', 'force/width', forces%friction(side))
       end do
    end function row_of
-
-   !> All rows so far are on the disk.
-   subroutine secure(self, problem)
-      class(wall_table_t), intent(inout) :: self
-      type(failure), intent(inout) :: problem   !! exit_files
-
-      call self%table%secure(problem)
-   end subroutine secure
-
-   !> Closes the table.
-   subroutine finish(self, problem)
-      class(wall_table_t), intent(inout) :: self
-      type(failure), intent(inout) :: problem
-
-      call self%table%close(problem)
-   end subroutine finish
 
 end module wall_table

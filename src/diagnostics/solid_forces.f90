@@ -15,7 +15,7 @@ module solid_forces
    use point_sums, only: at_surface, sum_with_solids
    use polygons, only: edge_normal
    use solid_terms, only: rub_solids
-   use solids, only: new_obstacle, obstacle_t
+   use solids, only: new_obstacle, obstacle_t, walls_crossed
    implicit none
    private
 
@@ -45,7 +45,7 @@ contains
       type(terms_t) :: has
       type(obstacle_t) :: obstacle
       real(dp) :: totals(n_sums)
-      logical :: across(2, size(forces))   ! it reaches through a wall across an axis
+      logical :: across(2, size(forces)), through(4)   ! it reaches through a wall across an axis; through a wall
       integer :: k, m
 
       has = model%terms()
@@ -56,7 +56,8 @@ contains
       call add_ghosts(model, box, near, p, sums)
       do k = 1, size(forces)
          obstacle = new_obstacle(model%solids(k), box)
-         across(:, k) = reaches_through(obstacle, box)
+         through = obstacle%reaches_through(box)
+         across(:, k) = through([1, 3]) .or. through([2, 4])
          if (any(across(:, k))) call add_faces(model, obstacle, box, near, p, sums(n_sums*(k - 1) + 8:n_sums*k))
       end do
       call add_over_processes(sums)
@@ -68,23 +69,6 @@ contains
          forces(k) = solid_force_t(totals(1:2), totals(3:4), totals(5) + totals(6), totals(7))
       end do
    end subroutine measure_solids
-
-   ! Across which axes a solid reaches through a wall.
-   pure function reaches_through(obstacle, box) result(across)
-      type(obstacle_t), intent(in) :: obstacle
-      type(box_t), intent(in) :: box
-      logical :: across(2)
-      integer :: side
-
-      across = .false.
-      do side = 1, 4
-         if (.not. is_wall(box%kind(side))) cycle
-         associate (axis => axis_of(side))
-            if (mod(side, 2) == 1) across(axis) = across(axis) .or. obstacle%lower(axis) < box%at(side)
-            if (mod(side, 2) == 0) across(axis) = across(axis) .or. obstacle%upper(axis) > box%at(side)
-         end associate
-      end do
-   end function reaches_through
 
    ! Force and moment of the pressure on what of the faces is in the box, by the middle rule; and how many wet points are beside
    ! walls across each axis.
@@ -104,8 +88,7 @@ contains
          n = max(1, ceiling(per_spacing*norm2(along)/model%dx))
          do k = 1, n
             place = obstacle%outline(:, edge) + along*((k - 0.5_dp)/n)
-            if (any(is_wall(box%kind) .and. [place(1) < box%at(1), place(1) > box%at(2), place(2) < box%at(3), &
-                                             place(2) > box%at(4)])) cycle
+            if (any(walls_crossed(box, place, place))) cycle
             if (.not. near%computes(place(1))) cycle
             call sum_with_solids(model, p, near, place(1), place(2), volume, pressure)
             force = -pressure/max(volume, at_surface)*norm2(along)/n*edge_normal(obstacle%outline, edge)

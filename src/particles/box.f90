@@ -12,7 +12,7 @@ module box
    integer, parameter, public :: left_wall = 1, right_wall = 2, bottom_wall = 3, top_wall = 4
    integer, parameter, public :: axis_of(4) = [1, 1, 2, 2]      !! that a side is across
    integer, parameter, public :: opposite(4) = [2, 1, 4, 3]
-   integer, parameter :: inward(4) = [1, -1, 1, -1]             ! direction along its axis, from a side to the fluid
+   integer, parameter, public :: inward(4) = [1, -1, 1, -1]     !! direction along its axis, from a side to the fluid
 
    integer, parameter, public :: open_side = 0        !! nothing
    integer, parameter, public :: free_slip_wall = 1   !! a mirror plane

@@ -4,15 +4,15 @@
 !! ghost stands at its centroid. Walls of the box cut it off. Where fluid comes near to a cell through faces that look in opposite
 !! directions, as in a thin plate, there is a ghost for each face.
 module solid_cells
-   use box, only: axis_of, box_t, is_wall
+   use box, only: axis_of, box_t, inward, is_wall
    use kinds, only: dp
    use motions, only: move_point, pose_t, turn
    use polygons, only: clip_polygon, edge_distance, edge_normal, nearest_edge, polygon_area, polygon_centroid, turned
-   use solids, only: new_obstacle, obstacle_t, solid_t
+   use solids, only: new_obstacle, obstacle_t, solid_t, walls_crossed
    implicit none
    private
 
-   public :: cell_t, find_cells, move_cell, is_beyond, opposite
+   public :: cell_t, find_cells, move_cell, opposite
 
    integer, parameter :: most_corners = 24          ! of a cell that walls cut at each time anew
    real(dp), parameter :: least_area = 1.0e-6_dp    ! in dx**2; what is less is left out
@@ -152,14 +152,14 @@ contains
       type(box_t), intent(in) :: box
       real(dp), intent(inout) :: part(:, :)
       integer, intent(inout) :: n
-      real(dp) :: inwards(2)
+      real(dp) :: normal(2)
       integer :: side
 
       do side = 1, 4
          if (.not. is_wall(box%kind(side)) .or. n == 0) cycle
-         inwards = 0
-         inwards(axis_of(side)) = merge(1, -1, mod(side, 2) == 1)
-         call clip_polygon(part, n, spread(box%at(side), 1, 2), inwards)
+         normal = 0
+         normal(axis_of(side)) = inward(side)
+         call clip_polygon(part, n, spread(box%at(side), 1, 2), normal)
       end do
    end subroutine cut_at_walls
 
@@ -183,7 +183,7 @@ contains
       do k = 1, n
          call move_point(pose, pivot, cell%corner(:, k), corner(:, k), ignored, also_ignored)
       end do
-      if (.not. any([(is_beyond(box, minval(corner(:, :n), 2), maxval(corner(:, :n), 2), k), k=1, 4)])) return
+      if (.not. any(walls_crossed(box, minval(corner(:, :n), 2), maxval(corner(:, :n), 2)))) return
       call cut_at_walls(box, corner, n)
       area = 0
       if (n >= 3) area = max(0.0_dp, polygon_area(corner(:, :n)))
@@ -191,21 +191,5 @@ contains
       drawn = pivot + turn(-pose%angle, polygon_centroid(corner(:, :n)) - pivot - pose%shift)
       call move_point(pose, pivot, drawn, place, velocity, acceleration)
    end subroutine move_cell
-
-   !> Whether something reaches beyond a wall.
-   pure logical function is_beyond(box, lower, upper, side)
-      type(box_t), intent(in) :: box
-      real(dp), intent(in) :: lower(2), upper(2)   !! [m] corners of the box around it
-      integer, intent(in) :: side
-
-      associate (axis => axis_of(side))
-         if (mod(side, 2) == 1) then
-            is_beyond = lower(axis) < box%at(side)
-         else
-            is_beyond = upper(axis) > box%at(side)
-         end if
-      end associate
-      is_beyond = is_beyond .and. is_wall(box%kind(side))
-   end function is_beyond
 
 end module solid_cells

@@ -12,7 +12,7 @@ module solid_ghosts
    use motions, only: move_point, pose_t, turn
    use particles, only: far_away, particles_t, reserve_slots, state_t
    use polygons, only: first_crossed, nearest_edge
-   use solid_cells, only: cell_t, find_cells, is_beyond, move_cell, opposite
+   use solid_cells, only: cell_t, find_cells, move_cell, opposite
    use solids, only: new_obstacle, obstacle_t, solid_t
    use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
@@ -194,7 +194,7 @@ contains
 
       creep_of = 0
       now = new_obstacle(solid, box)
-      if (any(is_through(now, box))) creep_of = solid%motion%largest_speed(solid%radius())
+      if (any(now%reaches_through(box))) creep_of = solid%motion%largest_speed(solid%radius())
    end function creep_of
 
    ! Where the ghosts are at the box's time.
@@ -252,6 +252,7 @@ contains
       type(box_t), intent(in) :: box
       type(state_t), intent(inout) :: state    !! x, y, u, v and volume of the ghosts are set; density to 0
       type(pose_t) :: pose(size(solids))
+      type(obstacle_t) :: now
       logical :: moves(size(solids))
       integer :: k
 
@@ -259,7 +260,9 @@ contains
          pose(k) = solids(k)%motion%at(box%time)
          moves(k) = solids(k)%motion%moves()
          self%through(:, k) = .false.
-         if (moves(k)) self%through(:, k) = is_through(new_obstacle(solids(k), box), box)
+         if (.not. moves(k)) cycle
+         now = new_obstacle(solids(k), box)
+         self%through(:, k) = now%reaches_through(box)
       end do
       if (self%shared) self%obstacles = [(new_obstacle(solids(k), box), k=1, size(solids))]
       !$omp parallel do default(none) shared(self, solids, box, state, pose, moves)
@@ -268,16 +271,6 @@ contains
       end do
       !$omp end parallel do
    end subroutine move_ghosts
-
-   ! Which walls a solid reaches through.
-   pure function is_through(now, box) result(through)
-      type(obstacle_t), intent(in) :: now
-      type(box_t), intent(in) :: box
-      logical :: through(4)
-      integer :: side
-
-      through = [(is_beyond(box, now%lower, now%upper, side), side=1, 4)]
-   end function is_through
 
    pure subroutine move_ghost(self, solids, box, pose, moves, k, state)
       type(solid_ghosts_t), intent(inout) :: self

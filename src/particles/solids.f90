@@ -2,14 +2,14 @@
 !!
 !! Source: ours (docs/equations.md, Solid bodies).
 module solids
-   use box, only: axis_of, box_t, is_wall
+   use box, only: axis_of, box_t, inward, is_wall
    use kinds, only: dp
    use motions, only: motion_t, move_point, pose_t
    use polygons, only: is_inside, nearest_edge
    implicit none
    private
 
-   public :: solid_t, obstacle_t, new_obstacle, reachable_faces, cover, push_out
+   public :: solid_t, obstacle_t, new_obstacle, walls_crossed, cover, push_out
 
    !> A solid as it is drawn: before its motion.
    type :: solid_t
@@ -31,6 +31,7 @@ module solids
       real(dp) :: lower(2) = 0, upper(2) = 0   !! [m] around it
    contains
       procedure :: velocity_at
+      procedure :: reaches_through
    end type obstacle_t
 
 contains
@@ -60,23 +61,22 @@ contains
       self%upper = maxval(self%outline, 2)
    end function new_obstacle
 
-   !> Edges that are not on, or beyond, a wall of the box.
+   ! Edges that are not on, or beyond, a wall of the box.
    pure function reachable_faces(outline, box) result(is_face)
-      real(dp), intent(in) :: outline(:, :)   !! (2, n)
+      real(dp), intent(in) :: outline(:, :)
       type(box_t), intent(in) :: box
       logical :: is_face(size(outline, 2))
       real(dp), parameter :: rounding = 1.0e-9_dp   ! of the box's size
-      integer :: k, side, sign
+      integer :: k, side
       real(dp) :: margin
 
       margin = rounding*max(box%at(2) - box%at(1), box%at(4) - box%at(3))
       is_face = .true.
       do side = 1, 4
          if (.not. is_wall(box%kind(side))) cycle
-         sign = merge(1, -1, mod(side, 2) == 1)   ! left and bottom: beyond is less
          do k = 1, size(outline, 2)
             associate (from => outline(axis_of(side), k), to => outline(axis_of(side), mod(k, size(outline, 2)) + 1))
-               if (max(sign*(from - box%at(side)), sign*(to - box%at(side))) <= margin) is_face(k) = .false.
+               if (max(inward(side)*(from - box%at(side)), inward(side)*(to - box%at(side))) <= margin) is_face(k) = .false.
             end associate
          end do
       end do
@@ -90,6 +90,24 @@ contains
 
       velocity = self%pose%velocity + self%pose%spin*[self%pivot(2) - place(2), place(1) - self%pivot(1)]
    end function velocity_at
+
+   !> Which walls the solid reaches through.
+   pure function reaches_through(self, box) result(through)
+      class(obstacle_t), intent(in) :: self
+      type(box_t), intent(in) :: box   !! at the solid's time
+      logical :: through(4)
+
+      through = walls_crossed(box, self%lower, self%upper)
+   end function reaches_through
+
+   !> Walls that something reaches beyond.
+   pure function walls_crossed(box, lower, upper) result(crossed)
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: lower(2), upper(2)   !! [m] corners of the box around it
+      logical :: crossed(4)
+
+      crossed = is_wall(box%kind) .and. [lower(1) < box%at(1), upper(1) > box%at(2), lower(2) < box%at(3), upper(2) > box%at(4)]
+   end function walls_crossed
 
    !> Which solid a point is in; 0 for none.
    pure integer function cover(obstacles, place) result(number)

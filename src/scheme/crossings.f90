@@ -24,8 +24,8 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), besides(2), lifted
-      integer :: i, k, g
+      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), inertia(2), lifted
+      integer :: i, k
 
       lower = minval(reshape([(obstacles(k)%lower, k=1, size(obstacles))], [2, size(obstacles)]), 2)
       upper = maxval(reshape([(obstacles(k)%upper, k=1, size(obstacles))], [2, size(obstacles)]), 2)
@@ -36,25 +36,18 @@ contains
          if (k == 0) cycle
          place = before
          velocity = [p%next%u(i), p%next%v(i)]
-         besides = model%acceleration + box%inertia%at(before, velocity)
-         call push_out(obstacles(k), model%force_at(before) + besides - model%acceleration, place, velocity)
+         inertia = box%inertia%at(before, velocity)
+         call push_out(obstacles(k), model%force_at(before) + inertia, place, velocity)
          impulse = p%m(i)*([p%next%u(i), p%next%v(i)] - velocity)
-         ! What the uniform force gave is not in the positions, as gravity's energy is.
-         lifted = p%m(i)*dot_product(besides, place - before)
-         g = 1 + (i - i0 - 1)/group_slots
-         sums%work(g, 4) = sums%work(g, 4) + lifted
-         sums%crossings = sums%crossings + 1
-         sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
+         lifted = p%m(i)*dot_product(model%acceleration + inertia, place - before)
+         call book(1 + (i - i0 - 1)/group_slots, lifted, place - before, sums)
          if (.not. allocated(sums%struck)) allocate (sums%struck(4, size(obstacles)), source=0.0_dp)
          associate (pivot => obstacles(k)%pivot)
             sums%struck(:, k) = sums%struck(:, k) &
                + [impulse, (place(1) - pivot(1))*impulse(2) - (place(2) - pivot(2))*impulse(1), &
                   p%m(i)*(model%energy_at(place, velocity) - model%energy_at(before, [p%next%u(i), p%next%v(i)])) - lifted]
          end associate
-         p%next%x(i) = place(1)
-         p%next%y(i) = place(2)
-         p%next%u(i) = velocity(1)
-         p%next%v(i) = velocity(2)
+         call put(p, i, place, velocity)
       end do
    end subroutine leave_solids
 
@@ -67,7 +60,7 @@ contains
       type(block_t), intent(inout) :: sums
       real(dp) :: lower(2), upper(2), before(2), place(2), velocity(2), at_wall(2), inertia(2)
       logical :: crossed
-      integer :: i, g
+      integer :: i
 
       call find_bounds(box, lower, upper)
       do i = i0 + 1, i0 + n
@@ -80,22 +73,37 @@ contains
          at_wall = min(max(before, box%at([left_wall, bottom_wall])), box%at([right_wall, top_wall]))
          inertia = box%inertia%at(at_wall, velocity)
          call reflect(box, model%force_at(at_wall) + inertia, place, velocity, crossed)
-         if (crossed) then
-            sums%crossings = sums%crossings + 1
-            sums%jump = max(sums%jump, hypot(place(1) - before(1), place(2) - before(2)))
-            ! What the uniform force gave is not in the positions, as gravity's energy is.
-            g = 1 + (i - i0 - 1)/group_slots
-            sums%work(g, 4) = sums%work(g, 4) + p%m(i)*dot_product(model%acceleration + inertia, place - before)
-         end if
+         if (crossed) call book(1 + (i - i0 - 1)/group_slots, p%m(i)*dot_product(model%acceleration + inertia, place - before), &
+                                place - before, sums)
          if (any(box%is_periodic([1, 2]))) then
             call wrap(box, place)
             sums%wrapped = .true.
          end if
-         p%next%x(i) = place(1)
-         p%next%y(i) = place(2)
-         p%next%u(i) = velocity(1)
-         p%next%v(i) = velocity(2)
+         call put(p, i, place, velocity)
       end do
    end subroutine cross_sides
+
+   ! A particle that was put back. What the uniform force and inertia gave is not in the positions, as gravity's energy is.
+   pure subroutine book(group, lifted, way, sums)
+      integer, intent(in) :: group
+      real(dp), intent(in) :: lifted   ! their work on the way
+      real(dp), intent(in) :: way(2)
+      type(block_t), intent(inout) :: sums
+
+      sums%work(group, 4) = sums%work(group, 4) + lifted
+      sums%crossings = sums%crossings + 1
+      sums%jump = max(sums%jump, hypot(way(1), way(2)))
+   end subroutine book
+
+   pure subroutine put(p, i, place, velocity)
+      type(particles_t), intent(inout) :: p
+      integer, intent(in) :: i
+      real(dp), intent(in) :: place(2), velocity(2)
+
+      p%next%x(i) = place(1)
+      p%next%y(i) = place(2)
+      p%next%u(i) = velocity(1)
+      p%next%v(i) = velocity(2)
+   end subroutine put
 
 end module crossings
