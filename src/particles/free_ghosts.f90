@@ -17,7 +17,9 @@ module free_ghosts
    !> By solid, or by slot, counted from the first ghost's.
    type :: free_ghosts_t
       real(dp), allocatable :: tilt(:, :)     !! [kg s2/m4] (2, n_slots) change of density by an acceleration of the ghost's face
-      real(dp), allocatable :: area(:, :)     !! [m3/s2] (2, n_slots) change of force by density
+      real(dp), allocatable :: push(:, :)     !! [N/m] (2, n_slots) force on the solid, whose power goes to the fluid
+      real(dp), allocatable :: area(:, :)     !! [m3/s2] (2, n_slots) its change by density,
+      real(dp), allocatable :: felt(:, :)     !! [m3/s2] (2, n_slots) and as the fluid feels it, images mirrored
       real(dp), allocatable :: load(:, :)     !! [N/m, N/m, N] (3, solids) force of pressure, and its moment about the pivot
       real(dp), allocatable :: drag(:, :)     !! (3, solids) and of friction
       real(dp), private :: width = 0          !! [m] of cells
@@ -47,8 +49,8 @@ contains
       class(free_ghosts_t), intent(inout) :: self
       integer, intent(in) :: n
 
-      if (allocated(self%tilt)) deallocate (self%tilt, self%area)
-      allocate (self%tilt(2, n), self%area(2, n), source=0.0_dp)
+      if (allocated(self%tilt)) deallocate (self%tilt, self%push, self%area, self%felt)
+      allocate (self%tilt(2, n), self%push(2, n), self%area(2, n), self%felt(2, n), source=0.0_dp)
    end subroutine make_room
 
    !> Takes the poses when ghosts are sorted: with them go the accelerations of the step before.

@@ -39,7 +39,7 @@ contains
             if (.not. (solids(solid)%body%is_free() .and. near%computes(ghosts%x(k)))) cycle
             call face_of(model, near, k, arm, normal)
             along = [normal, arm(1)*normal(2) - arm(2)*normal(1)]*dot_product(normal, free%tilt(:, k))
-            totals(:, 1) = with_moment(arm, ghosts%force(:, k))
+            totals(:, 1) = with_moment(arm, free%push(:, k))
             do m = 1, 3
                totals(:, 1 + m) = with_moment(arm, free%area(:, k))*along(m)
             end do
@@ -80,7 +80,7 @@ contains
                         *dot_product(normal, free%tilt(:, k))
             end associate
             state%s(i) = state%s(i) + change
-            ghosts%force(:, k) = ghosts%force(:, k) + free%area(:, k)*change
+            ghosts%force(:, k) = ghosts%force(:, k) + free%felt(:, k)*change
             ghosts%power(k) = ghosts%power(k) - dot_product(free%area(:, k), [state%u(i), state%v(i)])*change
          end do
       end associate

@@ -78,7 +78,9 @@ contains
             near%ghosts%force(:, m) = factor*(own + images(5:6) + s*images(7:8))
             if (allocated(near%ghosts%free)) then
                near%ghosts%free%tilt(:, m) = -model%rho0/model%c0**2*inverse*[sums%way_x(k), sums%way_y(k)]
+               near%ghosts%free%push(:, m) = power_force
                near%ghosts%free%area(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(3:4))
+               near%ghosts%free%felt(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(7:8))
             end if
          end associate
          near%ghosts%power(m) = -power_force(1)*state%u(i0 + k) - power_force(2)*state%v(i0 + k)
