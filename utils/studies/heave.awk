@@ -2,7 +2,8 @@
 #
 # usage: awk -v name=cylinder -v height=0.2 -v rest=0 -v until=12 -f utils/studies/heave.awk input/reference/heave_decay.csv RESULTS/solids.dat
 #
-# height, rest: where it starts above where it floats, and where that is; until: time up to which the difference is taken.
+# rest: where it floats, in a tank of width L higher by 2 a y/(L + 2 a), for so much the level rises; height: where it starts, above that;
+# until: time up to which the difference is taken.
 # With -v most=RMS it fails if the root is larger, or if there is nothing to compare.
 # Prints one line: the largest difference and the root of its mean square, in heights, and the first turn of both.
 FNR == 1 { file++ }
