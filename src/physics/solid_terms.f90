@@ -26,7 +26,8 @@ module solid_terms
 
 contains
 
-   !> Moves the ghosts to the poses of the solids, and gives them the pressure of the fluid near them; the force on each, and its power.
+   !> Moves the ghosts to the poses of the solids, and gives them the pressure of the fluid near them; the force on each, and its
+   !! power.
    subroutine meet_solids(model, box, poses, near, state)
       type(model_t), intent(in) :: model
       type(box_t), intent(in) :: box               !! at the state's time

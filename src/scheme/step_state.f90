@@ -75,7 +75,11 @@ contains
       call file%keep('work_force', self%work_force)
       if (allocated(self%solids)) call file%keep('work_still', self%work_still)
       if (allocated(self%solids)) call archive_solids(self, file)
-      if (allocated(self%drag)) call archive_free(self, file)
+      if (allocated(self%drag)) then
+         call archive_poses(self%poses, self%drag, file)
+         call file%keep('work_damper', self%work_damper)
+         call file%keep('work_rebound', self%work_rebound)
+      end if
       if (allocated(self%work_sponges)) call file%keep('work_sponges', self%work_sponges)
       call file%keep('mach', self%mach)
       call file%keep('speed', self%speed)
@@ -94,25 +98,24 @@ contains
       self%solids = reshape(numbers, shape(self%solids))
    end subroutine archive_solids
 
-   subroutine archive_free(self, file)
-      class(step_t), intent(inout) :: self
+   subroutine archive_poses(poses, drag, file)
+      type(pose_t), intent(inout) :: poses(:)
+      real(dp), intent(inout) :: drag(:, :)
       class(archive_t), intent(inout) :: file
-      real(dp) :: numbers(12, size(self%poses)), flat(size(numbers))
+      real(dp) :: numbers(12, size(poses)), flat(12*size(poses))
       integer :: k
 
-      do k = 1, size(self%poses)
-         numbers(:, k) = [way_of(self%poses(k)), rate_of(self%poses(k)), acceleration_of(self%poses(k)), self%drag(:, k)]
+      do k = 1, size(poses)
+         numbers(:, k) = [way_of(poses(k)), rate_of(poses(k)), acceleration_of(poses(k)), drag(:, k)]
       end do
       flat = reshape(numbers, [size(flat)])
       call file%keep('poses', flat)
       numbers = reshape(flat, shape(numbers))
-      do k = 1, size(self%poses)
-         self%poses(k) = pose_from(numbers(1:3, k), numbers(4:6, k), numbers(7:9, k))
-         self%drag(:, k) = numbers(10:12, k)
+      do k = 1, size(poses)
+         poses(k) = pose_from(numbers(1:3, k), numbers(4:6, k), numbers(7:9, k))
+         drag(:, k) = numbers(10:12, k)
       end do
-      call file%keep('work_damper', self%work_damper)
-      call file%keep('work_rebound', self%work_rebound)
-   end subroutine archive_free
+   end subroutine archive_poses
 
    !> Poses of solids at the time of the run; free ones stay as they are, or start.
    pure subroutine set_poses(self, model)

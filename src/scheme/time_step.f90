@@ -293,7 +293,7 @@ contains
       type(solid_motion_t) :: solids
       integer :: stage
 
-      solids = new_solid_motion(run%poses)
+      solids = new_solid_motion(model%poses_at(run%time, run%poses))
       do stage = 1, model%integrator%stages
          moment = moment_t(stage, run%dt, model%box_at(run%time + model%integrator%time_of(stage)*run%dt), &
                            model%box_at(run%time + run%dt))
