@@ -31,7 +31,7 @@ contains
 
       if (.not. limit > 0 .or. mod(state%step%step, balance_interval) /= 0) return
       associate (step => state%step, p => state%p)
-         share = imbalance(state%recorder%budget, model, p, works_of(step))
+         share = imbalance(state%recorder%budget, model, p, works_of(model, step))
          if (share <= limit) return   ! NaN is beyond it
          associate (own => p%id(:p%n_own) > 0, base => p%base)
             fastest = ''

@@ -58,6 +58,8 @@ contains
          if (has%solids) call row%add('W_stat', energy, b%w_stat)
          if (has%solids) call row%add('W_pen', energy, b%w_pen)
          if (has%sponges) call row%add('Q_sponge', energy, b%q_sponge)
+         if (has%free_bodies) call row%add('E_body', energy, b%e_body)
+         if (has%free_bodies) call row%add('Q_damper', energy, b%q_damper)
       end associate
    end subroutine add_energies
 
@@ -79,6 +81,8 @@ contains
          if (has%solids) call row%add('W_stat/dE', share, b%w_stat/de)
          if (has%solids) call row%add('W_pen/dE', share, b%w_pen/de)
          if (has%sponges) call row%add('Q_sponge/dE', share, b%q_sponge/de)
+         if (has%free_bodies) call row%add('(E_body-E_body_0)/dE', share, (b%e_body - b%e_body_at_start)/de)
+         if (has%free_bodies) call row%add('Q_damper/dE', share, b%q_damper/de)
          call row%add('balance_error/dE', share, b%balance_error)
       end associate
    end subroutine add_shares

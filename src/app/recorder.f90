@@ -268,7 +268,7 @@ contains
       type(gradient_fields_t) :: fields
       type(columns_t) :: row
 
-      call update_budget(self%budget, model, p, run%time, works_of(run))
+      call update_budget(self%budget, model, p, run%time, works_of(model, run))
       if (.not. self%energy_table%is_open()) return
       if (self%budget%has%rotation .or. self%budget%has%eddies) then
          call measure_gradients(model, p, near, fields)
@@ -290,7 +290,7 @@ contains
 
       row(1) = time
       row(2) = time/self%scale%unit
-      row(3:2 + size(self%sensors)) = measure_sensors(model, p, near, self%sensors, time)
+      row(3:2 + size(self%sensors)) = measure_sensors(model, p, near, self%sensors)
       do k = 1, size(self%gauges)
          row(k + 2 + size(self%sensors)) = measure_gauge(model, p, near, self%gauges(k))
       end do

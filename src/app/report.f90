@@ -292,6 +292,8 @@ contains
       if (budget%has%solids) words = words//'work of solids ' &
          //short((budget%w_solid + budget%w_stat + budget%w_pen)/budget%normaliser)//' (W_solid + W_stat + W_pen), '
       if (budget%has%sponges) words = words//'taken by sponges '//short(budget%q_sponge/budget%normaliser)//', '
+      if (budget%has%free_bodies) words = words//'gained by free bodies ' &
+         //short((budget%e_body - budget%e_body_at_start)/budget%normaliser)//', '
       words = words//'largest balance error '//short(budget%largest_error)
    end function works_text
 
@@ -385,6 +387,8 @@ contains
          if (has%solids) call file%add('W_stat', b%w_stat/de)
          if (has%solids) call file%add('W_pen', b%w_pen/de)
          if (has%sponges) call file%add('Q_sponge', b%q_sponge/de)
+         if (has%free_bodies) call file%add('E_body_change', (b%e_body - b%e_body_at_start)/de)
+         if (has%free_bodies) call file%add('Q_damper', b%q_damper/de)
          if (has%viscosity) call file%add('Q_alpha', b%q_alpha/de)
          if (has%diffusion) call file%add('Q_delta', b%q_delta/de)
          if (has%viscosity .or. has%diffusion) call file%add('Q_total', (b%q_alpha + b%q_delta)/de)

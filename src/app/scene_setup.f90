@@ -18,7 +18,7 @@ module scene_setup
    use settings, only: is_wall, settings_t
    use solution, only: solution_t
    use solution_register, only: new_solution
-   use solid_outlines, only: motion_of, solid_outline
+   use solid_outlines, only: body_of, motion_of, solid_outline
    use solids, only: new_obstacle, obstacle_t, solid_t
    use sponges, only: sponge_t
    use square_lattice, only: lattice_crowd
@@ -108,6 +108,7 @@ contains
             solids(k)%angle = degree*input%angle
             solids(k)%no_slip = input%surface == 'no_slip'
             solids(k)%motion = motion_of(input)
+            solids(k)%body = body_of(input)
          end associate
       end do
    end function set_up_solids
@@ -139,7 +140,7 @@ contains
       integer :: k
 
       solids = set_up_solids(scene)
-      obstacles = [(new_obstacle(solids(k), set_up_box(scene)), k=1, size(solids))]
+      obstacles = [(new_obstacle(solids(k), solids(k)%motion%at(0.0_dp), set_up_box(scene)), k=1, size(solids))]
    end function obstacles_of
 
    ! Of the input's words.

@@ -162,7 +162,7 @@ contains
       if (state%step%scattered) call problem%raise(exit_numerics, 'the fluid is more than 4 million strips of width h long')
       if (problem%raised()) return
       associate (step => state%step)
-         if (beginning%forked) call begin_balance_anew(state%recorder%budget, model, state%p, works_of(step))
+         if (beginning%forked) call begin_balance_anew(state%recorder%budget, model, state%p, works_of(model, step))
       end associate
       call watch_balance(scene%time%balance_limit, model, state, problem)
    end subroutine sort_first

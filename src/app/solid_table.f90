@@ -104,12 +104,14 @@ contains
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: run
       type(solid_force_t), intent(in) :: forces(:)
-      type(pose_t) :: pose
+      type(pose_t) :: poses(size(forces))
       type(terms_t) :: has
       real(dp) :: pushed(3)
       integer :: k
 
       has = model%terms()
+      poses = model%poses_at(run%time)
+      if (allocated(run%poses)) poses = run%poses
       call row%add('time', 'time', run%time)
       call row%add('time_scaled', self%scale%name, run%time/self%scale%unit)
       do k = 1, size(forces)
@@ -117,13 +119,14 @@ contains
          if (.not. self%time < 0 .and. run%time > self%time) &
             pushed = (run%solids(3:5, k) - self%impulses(3*k - 2:3*k))/(run%time - self%time)
          associate (solid => model%solids(k))
-            pose = solid%motion%at(run%time)
-            if (solid%motion%moves()) call add_pose(trim(self%names(k)), pose, solid%pivot, row)
+            if (solid%motion%moves()) call add_pose(trim(self%names(k)), poses(k), solid%pivot, row)
             call add_forces(trim(self%names(k)), forces(k), pushed, solid%no_slip .and. has%viscosity, row)
             if (solid%motion%moves()) then
                call row%add(trim(self%names(k))//'.power', 'power/width', forces(k)%power)
                call row%add(trim(self%names(k))//'.work', 'energy/width', run%solids(1, k) + run%solids(6, k))
             end if
+            if (solid%body%is_free()) call row%add(trim(self%names(k))//'.energy', 'energy/width', &
+                                                   solid%body%energy(poses(k), solid%pivot, model%gravity))
          end associate
       end do
    end function row_of

@@ -3,7 +3,8 @@
 !! Source: sec. 5 of the paper. Energies are normalised by Delta E_Mtot, what the fluid can lose until it rests;
 !! Q_alpha and Q_delta are the energies that the diffusive terms have taken, W_s what the walls gave, W_f what
 !! the uniform force gave, W_solid, W_stat and W_pen what solids gave: by -F.U, by the hydrostatic parts of their ghosts' pressure,
-!! and by putting back particles that got into them; Q_sponge is what sponge layers have taken.
+!! and by putting back particles that got into them; Q_sponge is what sponge layers have taken. Free solids are part of it: what
+!! they and the fluid give each other is no work; E_body is their energy, Q_damper what their dampers have taken.
 module budget
    use archive, only: archive_t
    use box, only: bottom_wall, is_wall, left_wall, right_wall
@@ -12,6 +13,7 @@ module budget
    use exact_sum, only: exact_totals
    use kinds, only: dp
    use model, only: model_t, terms_t
+   use motions, only: pose_t
    use particles, only: particles_t
    use rest_state, only: rest_energies, rest_energies_around
    use solids, only: new_obstacle
@@ -26,6 +28,7 @@ module budget
       real(dp) :: alpha = 0, delta = 0, walls = 0, force = 0
       real(dp) :: solids = 0, still = 0, pushed = 0   !! W_solid, W_stat, W_pen
       real(dp) :: sponges = 0
+      real(dp) :: bodies = 0, dampers = 0             !! energy of free solids, now; given by dampers
    contains
       procedure :: turned_over
    end type works_t
@@ -45,6 +48,9 @@ module budget
       real(dp) :: w_f = 0                    !! work of the uniform force
       real(dp) :: w_solid = 0, w_stat = 0, w_pen = 0   !! work of solids (not kept: of the steps)
       real(dp) :: q_sponge = 0               !! taken by sponge layers, > 0 (not kept: of the steps)
+      real(dp) :: e_body = 0                 !! energy of free solids (not kept: of the steps)
+      real(dp) :: e_body_at_start = 0        !! (not kept: of the scene)
+      real(dp) :: q_damper = 0               !! taken by their dampers, > 0 (not kept: of the steps)
       real(dp) :: q_omega = 0                !! mu int int vorticity**2 dA dt with the real viscosity mu
       real(dp) :: balance_error = 0          !! of the last update, share of the normaliser
       real(dp) :: largest_error = 0          !! largest |balance_error| so far
@@ -79,21 +85,37 @@ contains
    end subroutine archive_budget
 
    !> What the steps of a run have given.
-   pure type(works_t) function works_of(run) result(works)
+   pure type(works_t) function works_of(model, run) result(works)
+      type(model_t), intent(in) :: model
       type(step_t), intent(in) :: run
       real(dp) :: solids(2)
 
-      solids = run%work_solids()
+      solids = run%work_solids(model)
       works = works_t(run%work_alpha, run%work_delta, run%work_walls, run%work_force, solids(1), run%work_still, solids(2), &
-                      run%given_by_sponges())
+                      run%given_by_sponges(), 0.0_dp, run%work_damper)
+      if (model%has_free_bodies()) works%bodies = energy_of_bodies(model, run%poses)
    end function works_of
+
+   ! Kinetic energy of free solids, that in gravity and that of their springs.
+   pure real(dp) function energy_of_bodies(model, poses) result(energy)
+      type(model_t), intent(in) :: model
+      type(pose_t), intent(in) :: poses(:)
+      integer :: k
+
+      energy = 0
+      do k = 1, size(poses)
+         associate (solid => model%solids(k))
+            if (solid%body%is_free()) energy = energy + solid%body%energy(poses(k), solid%pivot, model%gravity)
+         end associate
+      end do
+   end function energy_of_bodies
 
    !> Sum of the works' sizes.
    pure real(dp) function turned_over(self)
       class(works_t), intent(in) :: self
 
       turned_over = abs(self%alpha) + abs(self%delta) + abs(self%walls) + abs(self%force) + abs(self%solids) &
-                    + abs(self%still) + abs(self%pushed) + abs(self%sponges)
+                    + abs(self%still) + abs(self%pushed) + abs(self%sponges) + abs(self%dampers)
    end function turned_over
 
    !> Sum of all masses.
@@ -120,6 +142,7 @@ contains
       integer :: k
 
       self%has = model%terms()
+      if (self%has%free_bodies) self%e_body_at_start = energy_of_bodies(model, model%poses_at(0.0_dp))
       call measure_energies(model, p, self%initial)
       self%now = self%initial
       self%has_rest = can_rest(model)
@@ -131,7 +154,8 @@ contains
       if (model%gravity > 0) self%normaliser = self%normaliser + mass*model%gravity*depth(1)
       if (self%has_rest) then
          if (model%has_solids()) then
-            call rest_energies_around([(new_obstacle(model%solids(k), model%box), k=1, size(model%solids))], &
+            call rest_energies_around([(new_obstacle(model%solids(k), model%solids(k)%motion%at(0.0_dp), model%box), &
+                                        k=1, size(model%solids))], &
                                       model%box%at([left_wall, right_wall, bottom_wall]), mass, &
                                       [model%rho0, model%c0, model%gravity], self%rest%potential, self%rest%elastic)
          else
@@ -188,11 +212,22 @@ contains
       self%w_stat = works%still
       self%w_pen = works%pushed
       self%q_sponge = 0 - works%sponges
-      self%balance_error = (self%now%total() + self%q_alpha + self%q_delta - self%w_s - self%w_f - works%solids - works%still &
-                            - works%pushed - works%sponges - self%initial%total())/self%normaliser
+      self%e_body = works%bodies
+      self%q_damper = 0 - works%dampers
+      self%balance_error = unexplained(self, self%now%total(), works)/self%normaliser
       self%largest_error = max(self%largest_error, abs(self%balance_error))
       call seek_peak(self, time)
    end subroutine update_budget
+
+   ! What fluid and free solids have gained besides the works.
+   pure real(dp) function unexplained(self, energy, works)
+      class(budget_t), intent(in) :: self
+      real(dp), intent(in) :: energy   ! of the fluid now
+      type(works_t), intent(in) :: works
+
+      unexplained = energy - works%alpha - works%delta - works%walls - works%force - works%solids - works%still - works%pushed &
+                    - works%sponges - self%initial%total() - works%dampers + works%bodies - self%e_body_at_start
+   end function unexplained
 
    !> What the balance misses at the base state, as a share of the energy at the start or of all that was turned over since,
    !! whichever is larger; for a watch, and no part of the budget.
@@ -206,8 +241,7 @@ contains
 
       call measure_energies(model, p, now)
       gained = now%total() - self%initial%total()
-      missing = abs(gained - works%alpha - works%delta - works%walls - works%force - works%solids - works%still - works%pushed &
-                    - works%sponges)
+      missing = abs(unexplained(self, now%total(), works))
       imbalance = 0
       if (missing > 0) imbalance = missing/max(self%at_start, abs(gained) + works%turned_over())
    end function imbalance
@@ -223,8 +257,7 @@ contains
       real(dp) :: missing
 
       call measure_energies(model, p, now)
-      missing = now%total() - self%initial%total() - works%alpha - works%delta - works%walls - works%force - works%solids &
-                - works%still - works%pushed - works%sponges
+      missing = unexplained(self, now%total(), works)
       if (abs(missing) > of_the_steps*self%normaliser) self%initial%elastic = self%initial%elastic + missing
    end subroutine begin_balance_anew
 

@@ -77,7 +77,7 @@ contains
       if (.not. model%has_solids()) return
       nearest = minval(distance)
       do k = 1, size(model%solids)
-         at_start = new_obstacle(model%solids(k), model%box)
+         at_start = new_obstacle(model%solids(k), model%solids(k)%motion%at(0.0_dp), model%box)
          call nearest_edge(model%solids(k)%outline, at_start%is_face, position, edge, gap, foot, normal)
          if (edge == 0 .or. gap >= nearest) cycle
          nearest = gap
@@ -87,12 +87,11 @@ contains
    end subroutine find_support
 
    !> Pressure on each sensor in the base state; dry parts count as 0.
-   function measure_sensors(model, p, near, sensors, time) result(pressure)
+   function measure_sensors(model, p, near, sensors) result(pressure)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near
       type(sensor_t), intent(in) :: sensors(:)
-      real(dp), intent(in) :: time         !! [s] of the base state
       real(dp) :: pressure(size(sensors))
       real(dp), allocatable :: values(:)   ! at all points
       real(dp) :: place(2)
@@ -105,7 +104,7 @@ contains
          do m = 1, size(sensors(k)%x)
             n = n + 1
             values(n) = -huge(1.0_dp)
-            place = place_at(model, sensors(k), m, time)
+            place = place_at(model, near, sensors(k), m)
             if (near%computes(place(1))) values(n) = pressure_near(model, p, near, place(1), place(2))
          end do
       end do
@@ -120,19 +119,19 @@ contains
       end do
    end function measure_sensors
 
-   ! Where a sensor's point is at a time.
-   pure function place_at(model, sensor, m, time) result(place)
+   ! Where a sensor's point is.
+   pure function place_at(model, near, sensor, m) result(place)
       type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
       type(sensor_t), intent(in) :: sensor
       integer, intent(in) :: m
-      real(dp), intent(in) :: time
       real(dp) :: place(2), drawn(2), velocity(2), acceleration(2)
 
       place = [sensor%x(m), sensor%y(m)]
       if (sensor%solid == 0) return
       drawn = place
       associate (solid => model%solids(sensor%solid))
-         call move_point(solid%motion%at(time), solid%pivot, drawn, place, velocity, acceleration)
+         call move_point(near%ghosts%poses(sensor%solid), solid%pivot, drawn, place, velocity, acceleration)
       end associate
    end function place_at
 

@@ -9,7 +9,6 @@ module solid_forces
    use gradient_fields, only: renew_coefficients
    use kinds, only: dp
    use model, only: model_t, terms_t
-   use motions, only: pose_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
    use point_sums, only: at_surface, sum_with_solids
@@ -53,9 +52,9 @@ contains
          if (model%dynamic) call renew_coefficients(model, near, p)
          call rub_solids(model, box, near, p)
       end if
-      call add_ghosts(model, box, near, p, sums)
+      call add_ghosts(model, near, p, sums)
       do k = 1, size(forces)
-         obstacle = new_obstacle(model%solids(k), box)
+         obstacle = new_obstacle(model%solids(k), near%ghosts%poses(k), box)
          through = obstacle%reaches_through(box)
          across(:, k) = through([1, 3]) .or. through([2, 4])
          if (any(across(:, k))) call add_faces(model, obstacle, box, near, p, sums(n_sums*(k - 1) + 8:n_sums*k))
@@ -105,19 +104,16 @@ contains
    end subroutine add_faces
 
    ! Of the own ghosts of each solid.
-   subroutine add_ghosts(model, box, near, p, sums)
+   subroutine add_ghosts(model, near, p, sums)
       type(model_t), intent(in) :: model
-      type(box_t), intent(in) :: box
       type(neighbours_t), intent(in) :: near
       type(particles_t), intent(in) :: p
       type(exact_sum_t), intent(inout) :: sums(:)
       real(dp) :: pivot(2, size(model%solids)), arm(2), parts(7)
-      type(pose_t) :: pose
       integer :: i, k, m, solid
 
       do k = 1, size(model%solids)
-         pose = model%solids(k)%motion%at(box%time)
-         pivot(:, k) = model%solids(k)%pivot + pose%shift
+         pivot(:, k) = model%solids(k)%pivot + near%ghosts%poses(k)%shift
       end do
       associate (ghosts => near%ghosts)
          do k = 1, ghosts%n_slots

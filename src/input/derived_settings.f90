@@ -7,7 +7,7 @@ module derived_settings
    use motions, only: motion_t
    use resting_fluid, only: resting_force, resting_force_t
    use settings, only: body_settings, is_wall, settings_t, solid_settings
-   use solid_outlines, only: motion_of, shape_centroid, solid_radius
+   use solid_outlines, only: homogeneous_inertia, motion_of, shape_centroid, solid_radius
    use text, only: to_text
    use wave_motions, only: resolve_wave_makers
    implicit none
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine enclose_discs
 
-   !> Solids turn about their centroids unless their pivots are given.
+   !> Solids turn about their centroids unless their pivots are given; free ones are homogeneous unless it is said otherwise.
    pure subroutine resolve_pivots(draft)
       type(draft_t), intent(inout) :: draft
       integer :: i
@@ -71,6 +71,10 @@ contains
       do i = 1, size(draft%scene%solids)
          if (draft%document%given('solid', i, 'pivot')) cycle
          draft%scene%solids(i)%pivot = shape_centroid(draft%scene, draft%scene%solids(i))
+      end do
+      do i = 1, size(draft%scene%solids)
+         if (draft%scene%solids(i)%motion /= 'free' .or. draft%document%given('solid', i, 'moment_of_inertia')) cycle
+         draft%scene%solids(i)%moment_of_inertia = homogeneous_inertia(draft%scene, draft%scene%solids(i))
       end do
    end subroutine resolve_pivots
 

@@ -21,7 +21,7 @@ module scene_keys
    character(*), parameter :: side_choices(*) = [character(choice_length) :: 'free_slip', 'no_slip', 'periodic', 'open']
 
    character(*), parameter :: motion_choices(*) = &
-      [character(choice_length) :: 'none', 'uniform', 'oscillation', 'table', 'piston', 'flap']
+      [character(choice_length) :: 'none', 'uniform', 'oscillation', 'table', 'piston', 'flap', 'free']
 
    !> What snapshots can hold.
    character(choice_length), parameter :: field_names(*) = &
@@ -147,6 +147,7 @@ contains
       case ('solid')
          call add_keys_of_shape(scene%solids(number), keys)
          call add_keys_of_motion(scene%solids(number), motion_choices, keys)
+         call add_keys_of_free_body(scene%solids(number), keys)
       case ('sponge')
          associate (sponge => scene%sponges(number))
             call keys%add(key_t('lower', 'Lower left corner, x and y.', 'm', required=.true., vector=sponge%lower))
@@ -222,11 +223,12 @@ contains
       character(:), allocatable :: meaning
 
       meaning = 'How it moves from where it is drawn: shifts, and turns about pivot.'
-      if (any(choices == 'piston')) meaning = meaning//' A piston or a flap makes waves that run to the right.'
+      if (any(choices == 'piston')) meaning = meaning//' A piston or a flap makes waves that run to the right; forces move '// &
+                                                         'a free body.'
       call keys%add(key_t('motion', meaning, choices=choices), moved%motion)
       if (any(choices == 'uniform')) then
-         call keys%only_with("motion = 'uniform'", moved%motion == 'uniform')
-         call keys%add(key_t('velocity', 'Velocity, x and y.', 'm/s', vector=moved%velocity))
+         call keys%only_with("motion = 'uniform' or 'free'", moved%motion == 'uniform' .or. moved%motion == 'free')
+         call keys%add(key_t('velocity', 'Velocity, x and y; of a free body, at the start.', 'm/s', vector=moved%velocity))
          call keys%add(key_t('spin', 'Rate at which it turns, counter-clockwise about pivot.', 'degrees/s', number=moved%spin))
       end if
       call add_keys_of_oscillation(moved, any(choices == 'piston'), keys)
@@ -237,6 +239,24 @@ contains
                           "from the scene's file on. It is read in as table."), moved%table_file)
       call keys%only_with('', .true.)
    end subroutine add_keys_of_motion
+
+   ! What forces move.
+   subroutine add_keys_of_free_body(solid, keys)
+      type(solid_settings), intent(inout), target :: solid
+      type(keys_t), intent(inout) :: keys
+
+      call keys%only_with("motion = 'free'", solid%motion == 'free')
+      call keys%add(key_t('mass', 'Mass, per unit width; pivot is its centre.', 'kg/m', positive, .true., solid%mass))
+      call keys%add(key_t('moment_of_inertia', 'Moment of inertia about pivot; by default as if it were homogeneous.', 'kg m', &
+                          positive, number=solid%moment_of_inertia, follows=.true.))
+      call keys%add(key_t('freedoms', 'What forces change; the rest is held.', &
+                          choices=[character(choice_length) :: 'x', 'y', 'angle'], list=solid%freedoms, used=solid%n_freedoms))
+      call keys%add(key_t('stiffness', 'Of springs to where it is drawn: along x, y, and of the angle, per radian.', &
+                          'N/m2, N/m2, N', not_negative, vector=solid%stiffness))
+      call keys%add(key_t('damping', 'Of dampers: along x, y, and of the angle, per radian.', 'N s/m2 (N s)', not_negative, &
+                          vector=solid%damping))
+      call keys%only_with('', .true.)
+   end subroutine add_keys_of_free_body
 
    subroutine add_keys_of_oscillation(moved, may_make_waves, keys)
       class(motion_settings), intent(inout), target :: moved

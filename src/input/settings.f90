@@ -90,8 +90,8 @@ module settings
    type :: motion_settings
       character(choice_length) :: motion = 'none'
       real(dp) :: pivot(2) = 0.0_dp                  !! about which it turns [m]
-      real(dp) :: velocity(2) = 0.0_dp               !! of uniform motion [m/s]
-      real(dp) :: spin = 0.0_dp                      !! of uniform motion [degrees/s]
+      real(dp) :: velocity(2) = 0.0_dp               !! of uniform motion; of a free body at t = 0 [m/s]
+      real(dp) :: spin = 0.0_dp                      !! the same [degrees/s]
       real(dp) :: amplitude(2) = 0.0_dp              !! of an oscillation [m]
       real(dp) :: swing = 0.0_dp                     !! amplitude of its angle [degrees]
       real(dp) :: wave_height = 0.0_dp               !! that a wave maker is to make [m]
@@ -121,6 +121,12 @@ module settings
       real(dp) :: angle = 0.0_dp                     !! it is turned by, counter-clockwise [degrees]
       character(choice_length) :: surface = 'free_slip'
       character(choice_length) :: fluid = 'cut'      !! what to do with a body of fluid that overlaps it
+      real(dp) :: mass = 0.0_dp                      !! of a free body [kg/m]
+      real(dp) :: moment_of_inertia = 0.0_dp         !! about its pivot; after reading, that used [kg m]
+      character(name_length) :: freedoms(3) = [character(name_length) :: 'x', 'y', 'angle']
+      integer :: n_freedoms = 3                      !! entries of `freedoms` in use
+      real(dp) :: stiffness(3) = 0.0_dp              !! of its springs [N/m2, N/m2, N]
+      real(dp) :: damping(3) = 0.0_dp                !! of its dampers [N s/m2, N s/m2, N s]
    end type solid_settings
 
    !> &sponge: where waves end.

@@ -9,9 +9,10 @@ module solid_check
    use polygons, only: find_crossing, is_inside, narrowest, polygon_area, regular_polygon
    use scanner, only: letters
    use settings, only: body_settings
-   use solid_outlines, only: starting_outline
+   use rigid_bodies, only: rigid_body_t
+   use solid_outlines, only: body_of, starting_outline
    use solid_room, only: check_gaps_between, check_room, in_words
-   use text, only: quoted, to_text
+   use text, only: quoted, short, to_text
    implicit none
    private
 
@@ -90,10 +91,36 @@ contains
          if (solid%motion == 'none') return
          speed = solid_speed(draft%scene, solid)
          what = '&solid '//quoted(solid%name)
-         if (.not. speed > 0.0_dp) call warn_of_rest(draft, 'solid', number, what, solid%motion)
+         if (solid%motion == 'free') call check_free_body(draft, number)
+         if (solid%motion /= 'free' .and. .not. speed > 0.0_dp) call warn_of_rest(draft, 'solid', number, what, solid%motion)
          call compare_with_sound(draft, 'solid', number, what, speed)
       end associate
    end subroutine check_motion
+
+   ! What forces move begins as it is let, and its springs are slow for the steps.
+   subroutine check_free_body(draft, number)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: number
+      real(dp), parameter :: pi = acos(-1.0_dp), fewest_steps = 20
+      type(rigid_body_t) :: body
+      real(dp) :: rates(3), rate, step
+      character(:), allocatable :: what
+
+      associate (solid => draft%scene%solids(number))
+         what = '&solid '//quoted(solid%name)//' '
+         body = body_of(solid)
+         if (.not. body%is_free()) call draft%mistake('solid', number, 'freedoms', what//"is free in nothing: give freedoms, or " &
+                                                      //"motion = 'none'")
+         if (any(.not. body%moves .and. abs([solid%velocity, solid%spin]) > 0.0_dp)) call draft%mistake('solid', number, &
+            'freedoms', what//'starts with a velocity in which it is held: leave it out, or add it to freedoms')
+         if (.not. draft%notes%clean('fluid time scene model') .or. .not. (solid%mass > 0 .and. solid%moment_of_inertia > 0)) return
+         rates = body%damping/body%masses() + sqrt(body%stiffness/body%masses())
+         rate = maxval(merge(rates, 0.0_dp, body%moves))
+         step = draft%scene%time%cfl*draft%scene%smoothing_length()/draft%scene%fluid%sound_speed
+         if (rate*step*fewest_steps > 2*pi) call draft%mistake('solid', number, 'stiffness', what//'has springs or dampers of ' &
+            //short(2*pi/rate)//' s, less than '//short(fewest_steps)//' steps: make them softer, the body heavier or cfl smaller')
+      end associate
+   end subroutine check_free_body
 
    !> A shape must have an inside.
    subroutine check_shape(draft, number, well)

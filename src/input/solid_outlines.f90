@@ -1,14 +1,15 @@
 !> Where solids are drawn, and how they move: what their settings mean, in numbers.
 module solid_outlines
    use kinds, only: dp
-   use motions, only: motion_t, move_point, oscillating, pose_t, tabulated, uniform
-   use polygons, only: polygon_centroid, regular_polygon, turned
+   use motions, only: free, motion_t, move_point, oscillating, pose_t, tabulated, uniform
+   use polygons, only: polygon_area, polygon_centroid, polygon_second_moment, regular_polygon, turned
+   use rigid_bodies, only: rigid_body_t
    use settings, only: motion_settings, settings_t, solid_settings
    use smooth_tables, only: new_smooth_table
    implicit none
    private
 
-   public :: n_corners, solid_outline, starting_outline, motion_of, shape_centroid, solid_radius
+   public :: n_corners, solid_outline, starting_outline, motion_of, body_of, shape_centroid, homogeneous_inertia, solid_radius
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    real(dp), parameter :: degree = pi/180
@@ -71,8 +72,8 @@ contains
       real(dp), allocatable :: rows(:, :)
 
       select case (moved%motion)
-      case ('uniform')
-         motion%kind = uniform
+      case ('uniform', 'free')
+         motion%kind = merge(free, uniform, moved%motion == 'free')
          motion%velocity = moved%velocity
          motion%spin = moved%spin*degree
       case ('oscillation', 'piston', 'flap')
@@ -89,6 +90,32 @@ contains
          motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
       end select
    end function motion_of
+
+   !> What forces move of a solid.
+   pure type(rigid_body_t) function body_of(solid) result(body)
+      type(solid_settings), intent(in) :: solid   !! its moment of inertia is known
+
+      if (solid%motion /= 'free') return
+      associate (freedoms => solid%freedoms(:solid%n_freedoms))
+         body%moves = [any(freedoms == 'x'), any(freedoms == 'y'), any(freedoms == 'angle')]
+      end associate
+      body%mass = solid%mass
+      body%inertia = solid%moment_of_inertia
+      body%stiffness = solid%stiffness
+      body%damping = solid%damping
+   end function body_of
+
+   !> Moment of inertia of a solid about its pivot, if its mass is the same everywhere in its shape [kg m].
+   pure real(dp) function homogeneous_inertia(scene, solid) result(inertia)
+      type(settings_t), intent(in) :: scene
+      type(solid_settings), intent(in) :: solid   !! its pivot is known
+      real(dp) :: vertices(2, n_corners(scene, solid))
+
+      vertices = shape_of(scene, solid)
+      inertia = 0
+      if (abs(polygon_area(vertices)) > 0) &
+         inertia = solid%mass*polygon_second_moment(vertices, solid%pivot)/polygon_area(vertices)
+   end function homogeneous_inertia
 
    !> Centroid of a solid's shape, not turned [m].
    pure function shape_centroid(scene, solid) result(centre)

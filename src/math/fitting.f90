@@ -6,7 +6,7 @@ module fitting
    implicit none
    private
 
-   public :: line_fit, zero_crossings, first_maximum, unwrapped, oscillation_t, fit_oscillation, fit_approach
+   public :: line_fit, zero_crossings, first_maximum, unwrapped, oscillation_t, fit_oscillation, fit_approach, solve
 
    !> y = exp(-decay t) (cosine cos(frequency t) + sine sin(frequency t)).
    type :: oscillation_t
@@ -216,7 +216,7 @@ contains
       end do
    end subroutine fit_approach
 
-   ! Gauss elimination with pivots of the rows; `right` becomes the solution.
+   !> Gauss elimination with pivots of the rows; `right` becomes the solution, if the matrix is regular.
    pure subroutine solve(matrix, right, regular)
       real(dp), intent(inout) :: matrix(:, :), right(:)
       logical, intent(out) :: regular

@@ -1,4 +1,4 @@
-!> Prescribed motions of rigid bodies.
+!> Poses of rigid bodies, and prescribed motions.
 module motions
    use kinds, only: dp
    use smooth_tables, only: smooth_table_t
@@ -7,7 +7,7 @@ module motions
 
    public :: pose_t, motion_t, move_point, turn
 
-   integer, parameter, public :: at_rest = 0, uniform = 1, oscillating = 2, tabulated = 3   !! kinds
+   integer, parameter, public :: at_rest = 0, uniform = 1, oscillating = 2, tabulated = 3, free = 4   !! kinds
 
    real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -21,14 +21,14 @@ module motions
       real(dp) :: spin_rate = 0         !! [rad/s2]
    end type pose_t
 
-   !> How a body moves; what its kind does not use does not matter.
+   !> How a body moves; what its kind does not use does not matter. A free body is moved by forces: how it is at t = 0.
    !!
    !! Oscillating: amplitude and swing times R(t) sin(2 pi t/period + phase), where R rises from 0 at t = 0 to 1 with two
    !! continuous derivatives, or is 1.
    type :: motion_t
       integer :: kind = at_rest
-      real(dp) :: velocity(2) = 0     !! uniform [m/s]
-      real(dp) :: spin = 0            !! uniform [rad/s]
+      real(dp) :: velocity(2) = 0     !! uniform; free, at t = 0 [m/s]
+      real(dp) :: spin = 0            !! uniform; free, at t = 0 [rad/s]
       real(dp) :: amplitude(2) = 0    !! oscillating [m]
       real(dp) :: swing = 0           !! oscillating [rad]
       real(dp) :: period = 1          !! oscillating, > 0 [s]
@@ -45,7 +45,7 @@ module motions
 
 contains
 
-   !> Pose at a time, with derivatives of exactly that motion.
+   !> Pose at a time, with derivatives of exactly that motion; of a free body, that at t = 0.
    pure type(pose_t) function pose_at(self, time) result(pose)
       class(motion_t), intent(in) :: self
       real(dp), intent(in) :: time   !! [s]
@@ -55,6 +55,9 @@ contains
       case (uniform)
          pose%shift = self%velocity*time
          pose%angle = self%spin*time
+         pose%velocity = self%velocity
+         pose%spin = self%spin
+      case (free)
          pose%velocity = self%velocity
          pose%spin = self%spin
       case (oscillating)
@@ -77,7 +80,7 @@ contains
       real(dp) :: speed, spin
 
       call bound_rates(self, speed, spin)
-      moves = speed > 0 .or. spin > 0
+      moves = self%kind == free .or. speed > 0 .or. spin > 0
    end function moves
 
    !> Whether its angle ever changes.
@@ -86,10 +89,10 @@ contains
       real(dp) :: speed, spin
 
       call bound_rates(self, speed, spin)
-      turns = spin > 0
+      turns = self%kind == free .or. spin > 0
    end function turns
 
-   !> Bound of the speed of any point of the body, at any time [m/s].
+   !> Bound of the speed of any point of the body, at any time; of a free one, at t = 0 [m/s].
    pure real(dp) function largest_speed(self, radius)
       class(motion_t), intent(in) :: self
       real(dp), intent(in) :: radius   !! of the body about its pivot [m]
@@ -99,14 +102,15 @@ contains
       largest_speed = speed + radius*spin
    end function largest_speed
 
-   !> Bound of the magnitude of the acceleration of any point of the body, at any time [m/s2].
+   !> Bound of the magnitude of the acceleration of any point of the body, at any time; 0 of a free one [m/s2].
    pure real(dp) function largest_acceleration(self, radius) result(bound)
       class(motion_t), intent(in) :: self
       real(dp), intent(in) :: radius   !! of the body about its pivot [m]
       real(dp) :: speed, spin, rates(2), curvatures(3)
 
       call bound_rates(self, speed, spin)
-      bound = radius*spin**2
+      bound = 0
+      if (self%kind /= free) bound = radius*spin**2
       select case (self%kind)
       case (oscillating)
          rates = largest_rates(self)
@@ -189,7 +193,7 @@ contains
       speed = 0
       spin = 0
       select case (motion%kind)
-      case (uniform)
+      case (uniform, free)
          speed = norm2(motion%velocity)
          spin = abs(motion%spin)
       case (oscillating)

@@ -17,6 +17,7 @@ module neighbours
    use kinds, only: dp, i8, sp
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
+   use motions, only: pose_t
    use solid_ghosts, only: list_near_solids, make_ghosts, solid_ghosts_t, sort_ghosts
    use solids, only: solid_t
    use strip_extents, only: measure_strips, take_slack
@@ -103,7 +104,7 @@ contains
    !> Moves the particles of `next` into `base` in the order of strips, and finds the images.
    !!
    !! The images are filled. The state of `next` is not changed.
-   subroutine sort_particles(self, p, kernel, box, dx, span, scattered, solids)
+   subroutine sort_particles(self, p, kernel, box, dx, span, scattered, solids, poses)
       type(neighbours_t), intent(inout) :: self
       type(particles_t), intent(inout) :: p
       type(kernel_t), intent(in) :: kernel
@@ -111,7 +112,8 @@ contains
       real(dp), intent(in) :: dx           !! particle spacing
       real(dp), intent(in) :: span         !! time that the steps to come are expected to take
       logical, intent(out) :: scattered    !! some particle is too far away to go on
-      type(solid_t), intent(in), optional :: solids(:)   !! none if left out
+      type(solid_t), intent(in), optional :: solids(:)   !! none if left out,
+      type(pose_t), intent(in), optional :: poses(:)     !! (solids) and theirs at that time
       integer, allocatable :: number(:)
       integer :: n_points
       type(extent_t) :: extent
@@ -175,7 +177,7 @@ contains
       if (scattered) return
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
-      if (self%ghosts%exist()) call sort_ghosts(self%ghosts, solids, box, p, [self%strips%width, dx, kernel%support], &
+      if (self%ghosts%exist()) call sort_ghosts(self%ghosts, solids, poses, box, p, [self%strips%width, dx, kernel%support], &
                                                 [self%tau, self%image_travel], self%image_slack)
    end subroutine sort_particles
 
@@ -401,7 +403,7 @@ contains
       !$omp end do
       !$omp end parallel
       if (self%ghosts%exist()) call list_near_solids(self%ghosts, self%blocks(:self%n_blocks), self%strips, self%images%strips, p, &
-                                                     predicted, [self%tau - self%age, travel], kernel%support)
+                                                     predicted, self%age, [self%tau - self%age, travel], kernel%support)
       call swap_states(predicted, p%stage(1))
       call find_inner(self, p%n_own, p%n_held)
    end subroutine list_neighbours
@@ -424,7 +426,8 @@ contains
                   outer(b) = outer(b) .or. i > n_own
                end do
                ! Ghosts of solids have their density of copies.
-               if (self%ghosts%exist()) outer(b) = outer(b) .or. self%ghosts%near(b)%first(block%n_clusters + 1) > 1
+               if (self%ghosts%exist()) outer(b) = outer(b) .or. self%ghosts%near(b)%first(block%n_clusters + 1) > 1 &
+                                                   .or. allocated(self%ghosts%free)   ! where these end, their ghosts say
             end associate
          end do
          !$omp end parallel do

@@ -64,7 +64,7 @@ contains
       type(cell_t) :: cell
       integer :: i, j, n_row, n_part, n_cells(2)
 
-      start = new_obstacle(solid, box)
+      start = new_obstacle(solid, solid%motion%at(box%time), box)
       ! What moves may come out from behind a wall.
       start%is_face = start%is_face .or. solid%motion%moves()
       if (.not. any(start%is_face)) return

@@ -5,6 +5,7 @@
 module solid_ghosts
    use box, only: box_t
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
+   use free_ghosts, only: free_ghosts_t, new_free_ghosts
    use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
@@ -12,6 +13,7 @@ module solid_ghosts
    use motions, only: move_point, pose_t, turn
    use particles, only: far_away, particles_t, reserve_slots, state_t
    use polygons, only: first_crossed, nearest_edge
+   use rigid_bodies, only: coasting
    use solid_cells, only: cell_t, find_cells, move_cell, opposite
    use solids, only: new_obstacle, obstacle_t, solid_t
    use strip_extents, only: measure_strips, take_slack
@@ -31,6 +33,8 @@ module solid_ghosts
       type(obstacle_t), allocatable :: obstacles(:)   !! solids where the ghosts are; only then
       logical, allocatable :: through(:, :)        !! (4, solids) it moves, and reaches through the side
       real(dp) :: acceleration = 0                 !! [m/s2] none has more
+      type(pose_t), allocatable :: poses(:)        !! (solids) where the ghosts are
+      type(free_ghosts_t), allocatable :: free     !! where some solids are free
       real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid,
       real(dp) :: width = 0                        !! [m] and less than which they stand beside where they are sorted
       type(strips_t) :: strips
@@ -134,13 +138,15 @@ contains
       do k = 1, size(solids)
          self%acceleration = max(self%acceleration, solids(k)%motion%largest_acceleration(solids(k)%radius()))
       end do
+      if (any(solids%body%is_free())) self%free = new_free_ghosts(size(solids), dx)
    end subroutine make_ghosts
 
    !> Gives the ghosts slots behind the fluid and its images, in the order of strips, and finds their images.
-   subroutine sort_ghosts(self, solids, box, p, widths, times, slack)
+   subroutine sort_ghosts(self, solids, poses, box, p, widths, times, slack)
       type(solid_ghosts_t), intent(inout) :: self
       type(solid_t), intent(in) :: solids(:)
-      type(box_t), intent(in) :: box             !! at the time of `base`
+      type(pose_t), intent(in) :: poses(:)       !! (solids) at the time of `base`
+      type(box_t), intent(in) :: box             !! then
       type(particles_t), intent(inout) :: p      !! n_slots counts the fluid and its images; on return the ghosts and theirs too
       real(dp), intent(in) :: widths(3)          !! of a strip, of a bin, of the kernel
       real(dp), intent(in) :: times(2)           !! that positions are predicted ahead by, and that lists last before and after then
@@ -150,13 +156,13 @@ contains
       integer :: k
 
       then = box%after(times(1))
-      call predict_places(self, solids, then, x, y)
+      call predict_places(self, solids, poses, times(1), then, x, y)
       self%strips%width = widths(1)
       self%strips%bin_height = widths(2)
       self%strips%origin = box%at(1)
       self%creep = 0
       do k = 1, size(solids)
-         if (solids(k)%motion%moves()) self%creep = max(self%creep, creep_of(solids(k), box))
+         if (solids(k)%motion%moves()) self%creep = max(self%creep, creep_of(solids(k), poses(k), box))
       end do
       self%before = p%n_slots
       call sort_into_strips(self%strips, self%n, [(k, k=1, self%n)], x, y, self%before + 1, .true.)
@@ -165,7 +171,9 @@ contains
       call reserve_slots(p, p%n_slots + group_slots)
       p%id(self%before + 1:p%n_slots) = self%strips%point_of(:self%n_slots)
       call make_room(self)
-      call move_ghosts(self, solids, box, p%base)
+      if (allocated(self%free)) call self%free%make_room(self%n_slots)
+      if (allocated(self%free)) call self%free%expect(solids, poses)
+      call move_ghosts(self, solids, poses, box, p%base)
       call measure_strips(self%strips, p%base)
       self%images%strips%width = widths(1)
       self%images%strips%bin_height = widths(2)
@@ -187,20 +195,23 @@ contains
    end subroutine sort_ghosts
 
    ! The speed of a solid that reaches beyond a wall; 0 of others.
-   pure real(dp) function creep_of(solid, box)
+   pure real(dp) function creep_of(solid, pose, box)
       type(solid_t), intent(in) :: solid
+      type(pose_t), intent(in) :: pose
       type(box_t), intent(in) :: box
       type(obstacle_t) :: now
 
       creep_of = 0
-      now = new_obstacle(solid, box)
+      now = new_obstacle(solid, pose, box)
       if (any(now%reaches_through(box))) creep_of = solid%motion%largest_speed(solid%radius())
    end function creep_of
 
-   ! Where the ghosts are at the box's time.
-   subroutine predict_places(self, solids, box, x, y)
+   ! Where the ghosts are at the box's time, some time after the poses.
+   subroutine predict_places(self, solids, poses, time, box, x, y)
       type(solid_ghosts_t), intent(in) :: self
       type(solid_t), intent(in) :: solids(:)
+      type(pose_t), intent(in) :: poses(:)
+      real(dp), intent(in) :: time
       type(box_t), intent(in) :: box
       real(dp), intent(out) :: x(self%n), y(self%n)
       type(pose_t) :: pose(size(solids))
@@ -209,6 +220,7 @@ contains
 
       do k = 1, size(solids)
          pose(k) = solids(k)%motion%at(box%time)
+         if (solids(k)%body%is_free()) pose(k) = coasting(poses(k), time)
       end do
       do k = 1, self%n
          associate (ghost => self%drawn(k))
@@ -245,38 +257,38 @@ contains
       allocate (array(n), source=0.0_dp)
    end subroutine resize
 
-   !> Puts the ghosts where they are at the box's time, with the solids' velocity there.
-   subroutine move_ghosts(self, solids, box, state)
+   !> Puts the ghosts where they are in some poses of the solids, with their velocity there.
+   subroutine move_ghosts(self, solids, poses, box, state)
       type(solid_ghosts_t), intent(inout) :: self
       type(solid_t), intent(in) :: solids(:)
-      type(box_t), intent(in) :: box
+      type(pose_t), intent(in) :: poses(:)     !! (solids) accelerations of free ones do not matter
+      type(box_t), intent(in) :: box           !! at the same time
       type(state_t), intent(inout) :: state    !! x, y, u, v and volume of the ghosts are set; density to 0
-      type(pose_t) :: pose(size(solids))
       type(obstacle_t) :: now
       logical :: moves(size(solids))
       integer :: k
 
+      self%poses = poses
       do k = 1, size(solids)
-         pose(k) = solids(k)%motion%at(box%time)
          moves(k) = solids(k)%motion%moves()
          self%through(:, k) = .false.
+         if (solids(k)%body%is_free()) self%poses(k) = coasting(poses(k), 0.0_dp)
          if (.not. moves(k)) cycle
-         now = new_obstacle(solids(k), box)
+         now = new_obstacle(solids(k), poses(k), box)
          self%through(:, k) = now%reaches_through(box)
       end do
-      if (self%shared) self%obstacles = [(new_obstacle(solids(k), box), k=1, size(solids))]
-      !$omp parallel do default(none) shared(self, solids, box, state, pose, moves)
+      if (self%shared) self%obstacles = [(new_obstacle(solids(k), poses(k), box), k=1, size(solids))]
+      !$omp parallel do default(none) shared(self, solids, box, state, moves)
       do k = 1, self%n_slots
-         call move_ghost(self, solids, box, pose, moves, k, state)
+         call move_ghost(self, solids, box, moves, k, state)
       end do
       !$omp end parallel do
    end subroutine move_ghosts
 
-   pure subroutine move_ghost(self, solids, box, pose, moves, k, state)
+   pure subroutine move_ghost(self, solids, box, moves, k, state)
       type(solid_ghosts_t), intent(inout) :: self
       type(solid_t), intent(in) :: solids(:)
       type(box_t), intent(in) :: box
-      type(pose_t), intent(in) :: pose(:)
       logical, intent(in) :: moves(:)          ! (solids)
       integer, intent(in) :: k
       type(state_t), intent(inout) :: state
@@ -291,8 +303,8 @@ contains
             place = cell%place
             area = cell%area
             if (moves(cell%solid)) then
-               call move_cell(cell, solids(cell%solid)%pivot, pose(cell%solid), box, place, velocity, acceleration, area)
-               pull = turn(pose(cell%solid)%angle, cell%normal)
+               call move_cell(cell, solids(cell%solid)%pivot, self%poses(cell%solid), box, place, velocity, acceleration, area)
+               pull = turn(self%poses(cell%solid)%angle, cell%normal)
                pull = dot_product(acceleration, pull)*pull
             end if
          end associate
@@ -377,20 +389,26 @@ contains
    end subroutine mirror_field
 
    !> Lists, for each block of the fluid, the ghosts that its clusters can reach, and for ghosts the fluid.
-   subroutine list_near_solids(self, blocks, strips, images, p, predicted, times, support)
+   subroutine list_near_solids(self, blocks, strips, images, p, predicted, age, times, support)
       type(solid_ghosts_t), intent(inout) :: self
       type(candidates_t), intent(in) :: blocks(:)   !! of the fluid
       type(strips_t), intent(in) :: strips, images  !! of the fluid and of its images
       type(particles_t), intent(in) :: p            !! base state of all slots
       type(state_t), intent(inout) :: predicted     !! positions of all slots, and slack in place of the volume but of the ghosts
+      real(dp), intent(in) :: age                   !! of the base state since the sort
       real(dp), intent(in) :: times(2)              !! from the base state to the prediction; before and after it that lists last
       real(dp), intent(in) :: support
+      real(dp) :: allowed
       integer :: b
 
       associate (first => self%before + 1, last => self%before + self%n_slots)
          ! A solid's velocity at `base` leads its ghosts to where they are predicted; beside that they go by their acceleration.
          predicted%volume(first:p%n_slots) = self%acceleration*(abs(times(1)) + times(2))**2 &
                                              + self%creep*(abs(times(1)) + times(2)) + merge(self%width, 0.0_dp, self%creep > 0)
+         if (allocated(self%free)) then
+            call self%free%take_lists(self%poses, age, abs(times(1)) + times(2), allowed)
+            predicted%volume(first:p%n_slots) = predicted%volume(first:p%n_slots) + allowed
+         end if
          call take_slack(self%strips, predicted%volume)
          call take_slack(self%images%strips, predicted%volume)
          call lay_out(self, size(blocks))

@@ -6,6 +6,7 @@ module solids
    use kinds, only: dp
    use motions, only: motion_t, move_point, pose_t
    use polygons, only: is_inside, nearest_edge
+   use rigid_bodies, only: rigid_body_t
    implicit none
    private
 
@@ -18,6 +19,7 @@ module solids
       real(dp) :: angle = 0                    !! [rad] that its shape was turned by
       logical :: no_slip = .false.             !! the fluid sticks to it
       type(motion_t) :: motion
+      type(rigid_body_t) :: body               !! what forces move, if they do
    contains
       procedure :: radius
    end type solid_t
@@ -43,14 +45,15 @@ contains
       radius = sqrt(maxval((self%outline(1, :) - self%pivot(1))**2 + (self%outline(2, :) - self%pivot(2))**2))
    end function radius
 
-   !> The solid at the box's time.
-   pure type(obstacle_t) function new_obstacle(solid, box) result(self)
+   !> The solid in a pose.
+   pure type(obstacle_t) function new_obstacle(solid, pose, box) result(self)
       type(solid_t), intent(in) :: solid
+      type(pose_t), intent(in) :: pose
       type(box_t), intent(in) :: box
       real(dp) :: velocity(2), acceleration(2)
       integer :: k
 
-      self%pose = solid%motion%at(box%time)
+      self%pose = pose
       self%pivot = solid%pivot + self%pose%shift
       allocate (self%outline(2, size(solid%outline, 2)), self%is_face(size(solid%outline, 2)))
       do k = 1, size(solid%outline, 2)

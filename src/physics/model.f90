@@ -24,6 +24,7 @@ module model
       logical :: solids = .false.        !! bodies in the fluid; W_solid, W_stat, W_pen
       logical :: sponges = .false.       !! layers that slow the fluid down; Q_sponge
       logical :: sticky_solids = .false. !! some that the fluid sticks to
+      logical :: free_bodies = .false.   !! some that forces move; E_body, Q_damper
       logical :: no_slip = .false.       !! walls that the fluid sticks to
       logical :: periodic = .false.      !! sides
       logical :: viscosity = .false.     !! Q_alpha
@@ -68,6 +69,8 @@ module model
       procedure :: terms
       procedure :: box_at
       procedure :: has_solids
+      procedure :: has_free_bodies
+      procedure :: poses_at
       procedure :: has_force
       procedure :: force_at
       procedure :: energy_at
@@ -116,6 +119,7 @@ contains
       terms%solids = self%has_solids()
       terms%sponges = allocated(self%sponges)
       if (terms%solids) terms%sticky_solids = any(self%solids%no_slip)
+      terms%free_bodies = self%has_free_bodies()
       terms%no_slip = any(self%box%kind == no_slip_wall)
       terms%periodic = any(self%box%kind == periodic_side)
       terms%viscosity = self%alpha > 0 .or. self%dynamic
@@ -151,6 +155,34 @@ contains
       has_solids = .false.
       if (allocated(self%solids)) has_solids = size(self%solids) > 0
    end function has_solids
+
+   !> Whether forces move some of them.
+   pure logical function has_free_bodies(self)
+      class(model_t), intent(in) :: self
+
+      has_free_bodies = .false.
+      if (self%has_solids()) has_free_bodies = any(self%solids%body%is_free())
+   end function has_free_bodies
+
+   !> Poses of all solids at a time: of free ones as they are given, or as they start.
+   pure function poses_at(self, time, free) result(poses)
+      class(model_t), intent(in) :: self
+      real(dp), intent(in) :: time                      !! [s]
+      type(pose_t), intent(in), optional :: free(:)     !! (solids)
+      type(pose_t), allocatable :: poses(:)             !! (solids)
+      integer :: k, n
+
+      n = 0
+      if (self%has_solids()) n = size(self%solids)
+      allocate (poses(n))
+      do k = 1, n
+         if (present(free) .and. self%solids(k)%body%is_free()) then
+            poses(k) = free(k)
+         else
+            poses(k) = self%solids(k)%motion%at(time)
+         end if
+      end do
+   end function poses_at
 
    !> Whether a uniform force acts besides gravity.
    pure logical function has_force(self)

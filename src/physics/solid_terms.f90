@@ -6,9 +6,11 @@ module solid_terms
    use box, only: box_t
    use candidates, only: block_groups, block_slots
    use flow_sums, only: flow_sums_t
+   use free_bodies, only: release
    use kinds, only: dp
    use lanes, only: nl
    use model, only: model_t
+   use motions, only: pose_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t, state_t
    use solid_ghosts, only: mirror_ghosts, move_ghosts
@@ -24,17 +26,19 @@ module solid_terms
 
 contains
 
-   !> Moves the ghosts to the box's time, and gives them the pressure of the fluid near them; the force on each, and its power.
-   subroutine meet_solids(model, box, near, state)
+   !> Moves the ghosts to the poses of the solids, and gives them the pressure of the fluid near them; the force on each, and its
+   !! power.
+   subroutine meet_solids(model, box, poses, near, state)
       type(model_t), intent(in) :: model
       type(box_t), intent(in) :: box               !! at the state's time
+      type(pose_t), intent(in) :: poses(:)         !! (solids) then
       type(neighbours_t), intent(inout) :: near
       type(state_t), intent(inout) :: state        !! fluid and images are filled; the ghosts and theirs are set
       type(ghost_sums_t) :: sums
       integer :: b
 
       if (.not. near%ghosts%exist()) return
-      call move_ghosts(near%ghosts, model%solids, box, state)
+      call move_ghosts(near%ghosts, model%solids, poses, box, state)
       !$omp parallel do default(none) shared(model, box, near, state) private(sums) schedule(dynamic)
       do b = 1, near%ghosts%n_blocks
          associate (block => near%ghosts%fluid(b))
@@ -43,6 +47,7 @@ contains
          end associate
       end do
       !$omp end parallel do
+      call release(model, box, near, state)
       call mirror_ghosts(near%ghosts, box, state)
    end subroutine meet_solids
 
@@ -72,6 +77,12 @@ contains
          associate (own => [sums%push_x(k) + s*sums%area_x(k), sums%push_y(k) + s*sums%area_y(k)], images => sums%images(:, k))
             power_force = factor*(own + images(1:2) + s*images(3:4))
             near%ghosts%force(:, m) = factor*(own + images(5:6) + s*images(7:8))
+            if (allocated(near%ghosts%free)) then
+               near%ghosts%free%tilt(:, m) = -model%rho0/model%c0**2*inverse*[sums%way_x(k), sums%way_y(k)]
+               near%ghosts%free%push(:, m) = power_force
+               near%ghosts%free%area(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(3:4))
+               near%ghosts%free%felt(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(7:8))
+            end if
          end associate
          near%ghosts%power(m) = -power_force(1)*state%u(i0 + k) - power_force(2)*state%v(i0 + k)
       end do

@@ -8,7 +8,9 @@ module step_outcome
    use lanes, only: nl
    use model, only: model_t
    use neighbours, only: neighbours_t
+   use rigid_bodies, only: rate_of
    use search_margins, only: lists_hold, overreach
+   use solid_motion, only: solid_motion_t
    use step_state, only: n_of_solid, step_t, take_extremes
    use strips, only: extent_t, group_slots
    implicit none
@@ -23,6 +25,7 @@ module step_outcome
       real(dp) :: solid_work = 0               !! [J/m] that the fluid got by the pressure of solids
       real(dp) :: sponge_work = 0              !! [J/m] that the fluid got by sponge layers
       real(dp), allocatable :: solids(:, :)    !! (n_of_solid, solids) as in step_t
+      type(solid_motion_t) :: motion           !! of solids
       integer(i8) :: crossings = 0, singular = 0
       real(dp) :: speed_2 = 0, pressure = 0, largest_s = 0   !! as in block_t
       real(dp) :: limit = 0                    !! [s] step that would have been stable in each stage
@@ -212,26 +215,58 @@ contains
       type(outcome_t), intent(in) :: all
       type(block_t), intent(in) :: blocks(:)
       real(dp) :: moving_walls, friction   ! work of walls that move along themselves, of solids by friction
+      logical :: lasts                     ! lists serve for where solids are
 
       if (run%dt < all%advective_limit .and. run%time + run%dt < last_time) run%limited = run%limited + 1
       moving_walls = run%dt*all%moving_walls
       friction = 0
+      lasts = .true.
       if (model%has_solids()) friction = sum(all%solids(2, :))
       run%work_alpha = run%work_alpha + all%work(1) - moving_walls - friction
       run%work_delta = run%work_delta + all%work(2)
       run%work_walls = run%work_walls + all%work(3) + moving_walls - all%solid_work
       if (model%has_solids()) call run%take_solids(all%solid_work, all%solids)
       run%work_force = run%work_force + all%work(4)
+      if (model%has_solids()) call move_solids(model, near, run, all, lasts)
       if (allocated(model%sponges)) call run%take_sponges(all%sponge_work)
       run%crossings = run%crossings + all%crossings
       run%singular = run%singular + all%singular
       call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)
       run%lost_slot = max(0, maxval(blocks%lost_slot))
       run%lost = all%lost
-      near%lasts = all%lasts
+      near%lasts = all%lasts .and. lasts
       near%mean_acceleration = all%mean_acceleration
       near%largest_acceleration = all%largest_acceleration
       near%extent = all%extent
    end subroutine collect
+
+   ! Solids at the end of the step. Free ones feel what they put back: its energy is known where both are.
+   subroutine move_solids(model, near, run, all, lasts)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(inout) :: near
+      type(step_t), intent(inout) :: run
+      type(outcome_t), intent(in) :: all
+      logical, intent(out) :: lasts
+      real(dp) :: change(3), way
+      integer :: k
+
+      run%poses = all%motion%poses
+      lasts = .true.
+      if (.not. allocated(near%ghosts%free)) return
+      run%work_force = run%work_force + all%motion%given
+      run%work_damper = run%work_damper - all%motion%damped
+      run%drag = near%ghosts%free%drag
+      do k = 1, size(run%poses)
+         associate (body => model%solids(k)%body, pose => run%poses(k), impulse => all%solids(3:5, k))
+            if (.not. body%is_free()) cycle
+            change = merge(impulse/body%masses(), 0.0_dp, body%moves)
+            run%work_rebound = run%work_rebound + sum(body%masses()*change*(rate_of(pose) + change/2))
+            pose%velocity = pose%velocity + change(:2)
+            pose%spin = pose%spin + change(3)
+         end associate
+      end do
+      call near%ghosts%free%overreach(model%solids, run%poses, near%age + run%dt, way)
+      lasts = .not. way > 0
+   end subroutine move_solids
 
 end module step_outcome

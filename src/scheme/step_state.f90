@@ -5,7 +5,9 @@ module step_state
    use equation_of_state, only: specific_pressure
    use kinds, only: dp, i8
    use model, only: model_t
+   use motions, only: pose_t
    use particles, only: particles_t
+   use rigid_bodies, only: acceleration_of, pose_from, rate_of, way_of
    implicit none
    private
 
@@ -30,6 +32,10 @@ module step_state
       real(dp) :: work_still = 0            !! energy given by solids besides -F.U: by the hydrostatic parts of their pressure
       real(dp), allocatable :: solids(:, :) !! (n_of_solid, solids) energy given by each by -F.U, of it friction's; impulse (2) by
                                             !! particles that were put back, its moment, energy given to them
+      type(pose_t), allocatable :: poses(:) !! (solids) of prescribed ones as the motions have them, set_poses
+      real(dp), allocatable :: drag(:, :)   !! (3, solids) force and moment of friction on free ones; where there are any
+      real(dp) :: work_damper = 0           !! energy given by dampers of free solids, <= 0
+      real(dp) :: work_rebound = 0          !! energy that these have by what they put back
       real(dp), allocatable :: work_sponges !! energy given by sponge layers, <= 0; where there are any
       real(dp) :: mach = 0                  !! eq. 4: max of |u| and sqrt(p/rho) over c0, of the base state
       real(dp) :: speed = 0                 !! max |u| of the base state
@@ -40,6 +46,7 @@ module step_state
       integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none (not kept: then all ends)
       logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
    contains
+      procedure :: set_poses
       procedure :: take_solids
       procedure :: take_sponges
       procedure :: given_by_sponges
@@ -68,6 +75,11 @@ contains
       call file%keep('work_force', self%work_force)
       if (allocated(self%solids)) call file%keep('work_still', self%work_still)
       if (allocated(self%solids)) call archive_solids(self, file)
+      if (allocated(self%drag)) then
+         call archive_poses(self%poses, self%drag, file)
+         call file%keep('work_damper', self%work_damper)
+         call file%keep('work_rebound', self%work_rebound)
+      end if
       if (allocated(self%work_sponges)) call file%keep('work_sponges', self%work_sponges)
       call file%keep('mach', self%mach)
       call file%keep('speed', self%speed)
@@ -85,6 +97,38 @@ contains
       call file%keep('solids', numbers)
       self%solids = reshape(numbers, shape(self%solids))
    end subroutine archive_solids
+
+   subroutine archive_poses(poses, drag, file)
+      type(pose_t), intent(inout) :: poses(:)
+      real(dp), intent(inout) :: drag(:, :)
+      class(archive_t), intent(inout) :: file
+      real(dp) :: numbers(12, size(poses)), flat(12*size(poses))
+      integer :: k
+
+      do k = 1, size(poses)
+         numbers(:, k) = [way_of(poses(k)), rate_of(poses(k)), acceleration_of(poses(k)), drag(:, k)]
+      end do
+      flat = reshape(numbers, [size(flat)])
+      call file%keep('poses', flat)
+      numbers = reshape(flat, shape(numbers))
+      do k = 1, size(poses)
+         poses(k) = pose_from(numbers(1:3, k), numbers(4:6, k), numbers(7:9, k))
+         drag(:, k) = numbers(10:12, k)
+      end do
+   end subroutine archive_poses
+
+   !> Poses of solids at the time of the run; free ones stay as they are, or start.
+   pure subroutine set_poses(self, model)
+      class(step_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+
+      if (allocated(self%poses)) then
+         self%poses = model%poses_at(self%time, self%poses)
+      else
+         self%poses = model%poses_at(self%time)
+         if (model%has_free_bodies()) allocate (self%drag(3, size(self%poses)), source=0.0_dp)
+      end if
+   end subroutine set_poses
 
    !> Adds what a step's solids have come to.
    pure subroutine take_solids(self, given, solids)
@@ -115,13 +159,15 @@ contains
       if (allocated(self%work_sponges)) work = self%work_sponges
    end function given_by_sponges
 
-   !> Energy that solids have given: by -F.U; by putting particles back [J/m].
-   pure function work_solids(self) result(work)
+   !> Energy that solids have given: by -F.U, free ones left out, for they have it of the fluid; by putting particles back [J/m].
+   pure function work_solids(self, model) result(work)
       class(step_t), intent(in) :: self
+      type(model_t), intent(in) :: model
       real(dp) :: work(2)
 
       work = 0
-      if (allocated(self%solids)) work = [sum(self%solids(1, :)), sum(self%solids(6, :))]
+      if (.not. allocated(self%solids)) return
+      work = [sum(self%solids(1, :), mask=.not. model%solids%body%is_free()), sum(self%solids(6, :)) + self%work_rebound]
    end function work_solids
 
    !> Extremes of the state that the run starts with; steps take those of the states they end with.

@@ -18,8 +18,9 @@ module time_step
    use neighbours, only: keep_order, list_neighbours, neighbours_t, sort_particles
    use particles, only: particles_t, state_t, swap_states
    use runge_kutta, only: stage_state, update_block, watch_changes
+   use solid_ghosts, only: move_ghosts
+   use solid_motion, only: meet_at_base, new_solid_motion, solid_motion_t
    use solid_terms, only: add_solids, meet_solids, rub_solids, take_solid_work
-   use solids, only: new_obstacle
    use search_margins, only: overreach, plan_t, planned, watch_margins, widen_margins
    use step_outcome, only: add_up, collect, look_ahead, outcome_t
    use step_state, only: step_t
@@ -49,7 +50,8 @@ contains
       else
          call keep_order(near, p, model%box_at(run%time), run%dt)
          if (p%features%no_slip) call fill_slip(near%images, model%box_at(run%time), p)
-         call meet_solids(model, model%box_at(run%time), near, p%base)
+         call run%set_poses(model)
+         call meet_at_base(model, p, near, run)
       end if
       call timers%stop(phase_sort)
    end subroutine refresh
@@ -100,13 +102,14 @@ contains
       near%age = plan%age
       near%slack = plan%slack
       near%slack_time_2 = plan%slack_time_2
+      call run%set_poses(model)
       call sort_particles(near, p, model%kernel, model%box_at(run%time), model%dx, plan%span, run%scattered, &
-                          model%solids)
+                          model%solids, run%poses)
       if (run%scattered) return
       run%sorted = run%sorted + 1
       if (p%features%no_slip) call fill_slip(near%images, model%box_at(run%time), p)
       call list_neighbours(near, p, model%kernel, 1.3_dp*near%tau)
-      call meet_solids(model, model%box_at(run%time), near, p%base)
+      call meet_at_base(model, p, near, run)
    end subroutine find_neighbours
 
    !> Advances from `base` to `next` by one step, not beyond `last_time`. With the step's sums goes what processes want each
@@ -158,7 +161,7 @@ contains
          call make_room(model, p, near, run, blocks, enough, all, timers)
          deallocate (blocks)
          if (run%scattered) return
-         call meet_solids(model, model%box_at(run%time), near, p%base)
+         call meet_at_base(model, p, near, run)
       end do
       if (present(notes)) notes = told
       call collect(model, near, run, last_time, all, blocks)
@@ -228,6 +231,7 @@ contains
          call timers%start(phase_sort)
          stage = findloc(all%overreach > 0, .true., 1)
          call widen_margins(near, model%integrator%ahead(stage)*run%dt, blocks%change(stage), blocks%change(1))
+         if (near%ghosts%exist()) call move_ghosts(near%ghosts, model%solids, run%poses, model%box_at(run%time), p%base)
          call list_neighbours(near, p, model%kernel, near%travel)
          ! Terms that are not frozen have left those of the last stage.
          if (p%features%no_slip .and. .not. model%frozen) call fill_slip(near%images, model%box_at(run%time), p)
@@ -286,36 +290,40 @@ contains
       logical, intent(inout) :: notes(:)
       real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
       type(moment_t) :: moment
-      integer :: k, stage
+      type(solid_motion_t) :: solids
+      integer :: stage
 
+      solids = new_solid_motion(model%poses_at(run%time, run%poses))
       do stage = 1, model%integrator%stages
          moment = moment_t(stage, run%dt, model%box_at(run%time + model%integrator%time_of(stage)*run%dt), &
                            model%box_at(run%time + run%dt))
          if (stage == model%integrator%stages .and. model%has_solids()) &
-            moment%obstacles = [(new_obstacle(model%solids(k), moment%last_box), k=1, size(model%solids))]
+            call solids%find_obstacles(model, moment%last_box, moment%obstacles)
          if (stage == 1) then
             call timers%start(phase_diffusion)
-            call first_stage(model, p, near, moment, blocks)
+            call first_stage(model, p, near, moment, solids, blocks)
             if (.not. model%frozen) call scale_wall_power(model%integrator%weight(1), blocks)
             call timers%stop(phase_diffusion)
          else
             call timers%start(phase_stages)
             if (stage == 4) call swap_states(p%next, p%stage(2))   ! see module runge_kutta
             if (model%frozen) then
-               call later_stage(model, p, near, moment, blocks)
+               call later_stage(model, p, near, moment, solids, blocks)
             else
-               call whole_stage(model, p, near, moment, blocks)
+               call whole_stage(model, p, near, moment, solids, blocks)
             end if
             call timers%stop(phase_stages)
          end if
          changes(:, stage) = blocks%change(stage)
-         if (stage < model%integrator%stages) &
-            all%overreach(stage) = overreach(near, model%integrator%ahead(stage)*run%dt, changes(:, stage))
+         if (stage == model%integrator%stages) exit
+         all%overreach(stage) = overreach(near, model%integrator%ahead(stage)*run%dt, changes(:, stage))
+         call solids%lead_on(model, near, moment, run%time + model%integrator%time_of(stage + 1)*run%dt, all%overreach(stage))
       end do
       near%jumped = any(blocks%wrapped)
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
       call add_up(model, near, run%dt, blocks, all, notes)
+      all%motion = solids
    end subroutine stages
 
    ! The power of walls that move, as a stage's part of the step's.
@@ -340,11 +348,12 @@ contains
    end function solids_are_due
 
    ! Completes the frozen terms and goes from `base` to the second stage's state.
-   subroutine first_stage(model, p, near, moment, blocks)
+   subroutine first_stage(model, p, near, moment, solids, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
-      type(moment_t), intent(in) :: moment
+      type(moment_t), intent(inout) :: moment
+      type(solid_motion_t), intent(inout) :: solids
       type(block_t), intent(inout) :: blocks(:)
       type(rates_t) :: rates
       type(terms_t) :: has
@@ -362,6 +371,7 @@ contains
          if (solids_are_due(near, part)) then
             if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
             call take_solid_work(near, p%base, model%integrator%weight(1)*moment%dt, begins=.true.)
+            call solids%take_forces(model, near, moment)
          end if
          span = near%part(part)
          started = wall_seconds()
@@ -393,11 +403,12 @@ contains
    end subroutine take_kept
 
    ! Evaluates the rates at a stage's state and forms the next stage's, or the end of the step.
-   subroutine later_stage(model, p, near, moment, blocks)
+   subroutine later_stage(model, p, near, moment, solids, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
-      type(moment_t), intent(in) :: moment   !! of stage 2 or later
+      type(moment_t), intent(inout) :: moment   !! of stage 2 or later
+      type(solid_motion_t), intent(inout) :: solids
       type(block_t), intent(inout) :: blocks(:)
       type(flow_sums_t) :: sums
       type(rates_t) :: rates
@@ -413,8 +424,9 @@ contains
             near%division%waiting = near%division%waiting + wall_seconds() - started
          end if
          if (solids_are_due(near, part)) then
-            call meet_solids(model, moment%box, near, p%stage(now))
+            call meet_solids(model, moment%box, solids%poses, near, p%stage(now))
             call take_solid_work(near, p%stage(now), model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
+            call solids%take_forces(model, near, moment)
          end if
          span = near%part(part)
          started = wall_seconds()
@@ -436,11 +448,12 @@ contains
    end subroutine later_stage
 
    ! The same with the diffusive terms of the stage's own state, which takes the place of `base` for them.
-   subroutine whole_stage(model, p, near, moment, blocks)
+   subroutine whole_stage(model, p, near, moment, solids, blocks)
       type(model_t), intent(in) :: model
       type(particles_t), intent(inout) :: p
       type(neighbours_t), intent(inout) :: near
-      type(moment_t), intent(in) :: moment   !! of stage 2 or later
+      type(moment_t), intent(inout) :: moment   !! of stage 2 or later
+      type(solid_motion_t), intent(inout) :: solids
       type(block_t), intent(inout) :: blocks(:)
       type(block_t) :: of_stage(size(blocks))
       type(rates_t) :: rates
@@ -451,7 +464,7 @@ contains
       now = stage_state(moment%stage)
       allocate (kept%u(p%capacity), kept%v(p%capacity), kept%s(p%capacity))
       call fill_ghosts(near%images, moment%box, p%stage(now))
-      call meet_solids(model, moment%box, near, p%stage(now))
+      call meet_solids(model, moment%box, solids%poses, near, p%stage(now))
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
@@ -461,6 +474,7 @@ contains
       has = model%terms()
       if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
       call take_solid_work(near, p%base, model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
+      call solids%take_forces(model, near, moment)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
       do b = 1, near%n_blocks
          call complete_frozen_terms(model, p, near, b, of_stage(b))

@@ -74,6 +74,21 @@ set_tests_properties(a_far_solid_changes_no_bit PROPERTIES FIXTURES_REQUIRED sol
 a_solid(risen_block ${scenes}/risen_block.nml "W_pen 0 0.01" "block.force_y 6 0.75 0.95" "energy_balance_error|0|1e-3;wall_crossings|0|400"
    time.end_time=16)
 
+# A block falls freely until it touches water, dives and swims; it stays in the middle.
+a_solid(falling_block ${scenes}/falling_block.nml "W_solid 0 0 W_stat/dE 0 8e-3 W_pen/dE 0 1e-3" "block.y 2 0.85 1.05"
+   "energy_balance_error|0|2e-4;E_body_change|-0.08|-0.02" time.cfl=0.6)
+add_test(NAME solid_falling_block_falls_freely COMMAND ${DYNSPH_AWK} -v name=block -v gravity=1 -v until=1
+   -f ${scenes}/check_free_fall.awk ${here}/solid_falling_block/solids.dat)
+set_tests_properties(solid_falling_block_falls_freely PROPERTIES FIXTURES_REQUIRED solid_falling_block_result TIMEOUT 30)
+
+# A cylinder that floats and heaves: 2 % of its height apart from linear theory, with 20 particles across.
+a_solid(heave_decay ${PROJECT_SOURCE_DIR}/input/heave_decay.nml "W_solid 0 0 W_stat/dE 0 1e-5" "cylinder.angle 0 -1e-9 1e-9"
+   "energy_balance_error|0|1e-6" scene.resolution=10 time.end_time=8)
+add_test(NAME solid_heave_decay_follows_theory COMMAND ${DYNSPH_AWK} -v name=cylinder -v height=0.1895
+   -v rest=0.0105 -v until=8 -v most=0.03 -f ${PROJECT_SOURCE_DIR}/utils/studies/heave.awk ${PROJECT_SOURCE_DIR}/input/reference/heave_decay.csv
+   ${here}/solid_heave_decay/solids.dat)
+set_tests_properties(solid_heave_decay_follows_theory PROPERTIES FIXTURES_REQUIRED solid_heave_decay_result TIMEOUT 30)
+
 # What cannot be is refused.
 add_test(NAME refuses_solids_that_leave_no_fluid COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--set;solid.lower=-1,-1;--set;solid.upper=5,1.4;--output;no_fluid;${scenes}/still_block.nml"

@@ -188,7 +188,8 @@ contains
       near%slack = 0.02_dp*model%dx
       if (present(slack)) near%slack = slack
       call deal(p)
-      call sort_particles(near, p, model%kernel, model%box, model%dx, step_ahead, scattered, model%solids)
+      call sort_particles(near, p, model%kernel, model%box, model%dx, step_ahead, scattered, model%solids, &
+                          model%poses_at(0.0_dp))
       if (scattered) error stop 'the test''s particles are too far from each other'
       call list_neighbours(near, p, model%kernel, 2*near%tau)
    end subroutine find_neighbours
