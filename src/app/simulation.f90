@@ -15,7 +15,7 @@ module simulation
    use particles, only: particles_t, swap_states
    use progress, only: progress_t
    use report, only: closing_table, start_box, write_summary_file
-   use result_directory, only: input_name, log_name, result_directory_t, series_name, summary_name
+   use result_directory, only: input_name, log_name, outlines_name, result_directory_t, series_name, summary_name
    use room, only: check_room
    use run_log, only: log_t
    use run_state, only: run_state_t
@@ -217,8 +217,9 @@ contains
          continue
       else if (state%recorder%series%count() > 0) then
          call state%recorder%series%write(directory%file(series_name), problem)
-      else if (path_exists(directory%file(series_name))) then
-         call delete_file(directory%file(series_name), ignored)
+      else
+         if (path_exists(directory%file(series_name))) call delete_file(directory%file(series_name), ignored)
+         if (path_exists(directory%file(outlines_name))) call delete_file(directory%file(outlines_name), ignored)
       end if
       call problem%tell()
    end subroutine open_files

@@ -43,6 +43,17 @@ a_solid(pushed_block ${PROJECT_SOURCE_DIR}/input/pushed_block.nml "W_stat/dE 0 1
    "energy_balance_error|0|3e-3;W_solid|0.05|0.07" scene.resolution=20)
 a_solid(belt ${scenes}/belt.nml "W_stat 0 1e-3" "belt.friction_x 0.2 -0.35 -0.18" "energy_balance_error|0|1e-4")
 
+# Where the block is at each time: ParaView is led there, and pictures find it in the head of a table.
+add_test(NAME paraview_finds_outlines COMMAND sh -c
+   "/usr/bin/python3 -c 'import vtkmodules.vtkIOHDF, h5py' 2>/dev/null || { echo 'no python3 with vtk and h5py'; exit 77; }; exec /usr/bin/python3 '${PROJECT_SOURCE_DIR}/utils/check_paraview.py' snapshot_*.vtkhdf outlines.xdmf")
+set_tests_properties(paraview_finds_outlines PROPERTIES WORKING_DIRECTORY ${here}/solid_pushed_block SKIP_RETURN_CODE 77
+   FIXTURES_REQUIRED solid_pushed_block_result TIMEOUT 60)
+add_test(NAME solid_outline_is_where_the_block_is COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=$<TARGET_FILE:dynsph-snapshot-to-text>;solid_pushed_block/snapshot_000010.vtkhdf"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT=# outline of block:  2.3000000E.000  3.0000000E-001\n# outline of block:  2.7000000E.000  3.0000000E-001\n" -P ${run_and_expect})
+set_tests_properties(solid_outline_is_where_the_block_is PROPERTIES FIXTURES_REQUIRED solid_pushed_block_result TIMEOUT 30)
+
 # The flow above the belt's middle, in layers of 0.05: U erfc(y/sqrt(4 nu t)) at t = 0.5, to 1 % of U where the flow that returns from
 # the ends (0.7 % of U) does not matter yet.
 add_test(NAME solid_belt_snapshot COMMAND $<TARGET_FILE:dynsph-snapshot-to-text> ${here}/solid_belt/snapshot_000001.vtkhdf
