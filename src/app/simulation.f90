@@ -6,6 +6,7 @@ module simulation
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
    use communication, only: is_first
+   use contact_watch, only: watch_contacts
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_files, exit_input, exit_numerics, exit_stopped, failure
    use file_system, only: delete_file, file_bytes, path_exists, write_whole_file
@@ -21,6 +22,7 @@ module simulation
    use run_state, only: run_state_t
    use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
+   use solid_contacts, only: contacts_t
    use step_check, only: check_step
    use step_state, only: start_extremes, step_t
    use stopping, only: stopping_t
@@ -248,11 +250,13 @@ contains
       character(:), allocatable, intent(out) :: status
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
+      type(contacts_t) :: contacts
       type(step_t) :: before
       integer, parameter :: cannot_write = 1, shall_stop = 2, checkpoint_due = 3
       logical :: notes(3)   ! of what single processes know
       logical :: saved   ! this state, because the run shall stop
 
+      call watch_contacts(contacts, log, scene, model, state%step, problem)
       call progress%start(state%step%time, scene%time%end_time, state%step%step, state%p%n)
       call progress%limit(scene%time%max_steps, scene%time%max_wall_time)
       saved = .false.
@@ -303,7 +307,8 @@ contains
             call record_failure(scene, model, state, directory, 'The state before the step', problem)
             exit
          end if
-         call watch_balance(scene%time%balance_limit, model, state, problem)
+         call watch_contacts(contacts, log, scene, model, state%step, problem)
+         if (.not. problem%raised()) call watch_balance(scene%time%balance_limit, model, state, problem)
          if (problem%raised()) then
             status = 'failed: numerics'
             call record_failure(scene, model, state, directory, 'The state', problem)

@@ -93,3 +93,12 @@ add_test(NAME refuses_solids_through_periodic_sides COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--output;through;${scenes}/still_block.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=moves through the periodic right side of &domain at t = 1.6" -P ${run_and_expect})
 set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_through_periodic_sides PROPERTIES TIMEOUT 30)
+
+# Solids that come too near, once; the run ends where they collide, and keeps what it has.
+file(READ ${scenes}/still_block.nml text)
+file(WRITE ${here}/collision.nml "${text}\n&solid name = 'ram', shape = 'rectangle', lower = 0.2, 0.2, upper = 0.4, 0.6, motion = 'uniform', velocity = 0.3, 0 /\n")
+add_test(NAME solid_collision_ends_the_run COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--quiet;--overwrite;--set;output.snapshots=never;--output;collision;${here}/collision.nml" -DWORKING_DIRECTORY=${here}
+   -DEXIT_STATUS=2 "-DEXPECT=warning: &solid 'ram' is only .* dx from 'block' at t = .*;&solid 'ram' collides with 'block' at t = .* change their motions, or end the run before. The state is in the last snapshot"
+   "-DREJECT=further warnings" "-DCREATED=collision/snapshot_000000.vtkhdf;collision/solids.dat" -P ${run_and_expect})
+set_tests_properties(solid_collision_ends_the_run PROPERTIES TIMEOUT 60)
