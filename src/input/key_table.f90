@@ -9,7 +9,7 @@ module key_table
 
    public :: key_t, keys_t, range_t, listed
 
-   integer, parameter :: most_keys = 24           ! of a group
+   integer, parameter :: most_keys = 32           ! of a group
    integer, parameter :: per_line = 4             ! numbers of a long list
 
    !> Numbers a key may have.

@@ -4,7 +4,7 @@ module solid_outlines
    use motions, only: motion_t, move_point, oscillating, pose_t, tabulated, uniform
    use polygons, only: polygon_centroid, regular_polygon, turned
    use settings, only: motion_settings, settings_t, solid_settings
-   use smooth_tables, only: new_smooth_table
+   use smooth_tables, only: new_acceleration_table, new_smooth_table
    implicit none
    private
 
@@ -86,7 +86,11 @@ contains
          motion%kind = tabulated
          rows = transpose(reshape(moved%table%values, [4, moved%table%n()/4]))
          rows(:, 4) = rows(:, 4)*degree
-         motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
+         if (moved%table_of == 'acceleration') then
+            motion%table = new_acceleration_table(rows(:, 1), rows(:, 2:))
+         else
+            motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
+         end if
       end select
    end function motion_of
 
