@@ -90,12 +90,13 @@ shape = animated && pixels <= 3 ? '(0.5*dx/d):(0.5*dx/d):' : pixels > 2 ? '(0.56
 style = animated && pixels <= 3 ? 'boxxyerror' : pixels > 2 ? 'circles' : pixels > 0.6 ? 'points pointtype 7 pointsize 0.22' : 'dots'
 colour = animated ? '(palette(column(place)/scale)) with '.style.' linecolor rgb variable' \
    : '(column(place)/scale) with '.style.' linecolor palette'
-# Solids: a line of the head is a corner, a blank line parts outlines. Grey below the fluid, the outline above it.
-corners = "'< awk ''BEGIN { print \"x y\" } /^[^#]/ { exit } /^# outline of / { if ($4 != name) print \"\"; name = $4; print $5, $6 }'' " \
-   .table."' using ($1/d):($2/d) "
+# Solids: grey below the fluid, the outline above it.
+corners(frame) = "'< awk ".frame." -f ''".plots."/outlines.awk'' ''".table."''' using ($1/d):($2/d) "
+frame = sprintf("-v frame=''%.9g %.9g %.9g %.9g''", d*(x_min - margin), d*(x_max + margin), d*(y_min - margin), d*(y_max + margin))
 solid = strlen(head_text(table, 'outline of .*')) > 0
-areas = solid ? corners."with filledcurves closed fillcolor rgb '#e4e4e4', " : ''
-outlines = solid ? ', '.corners.'with lines linewidth 1.5 linecolor rgb black' : ''
+areas = solid ? corners(frame)."with filledcurves closed fillcolor rgb '#e4e4e4', " : ''
+outlines = solid ? ', '.corners('').'with lines linewidth 1.5 linecolor rgb black' : ''
+set clip two   # of an edge both ends may be outside
 do for [i=1:n] {
    name = word(panels, i)
    row = (i - 1)/columns
