@@ -15,7 +15,7 @@ install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 set(data ${CMAKE_INSTALL_DATADIR}/dynsph)
 install(DIRECTORY input DESTINATION ${data} FILES_MATCHING PATTERN *.nml PATTERN *.csv PATTERN *.txt)
-install(DIRECTORY utils/plots DESTINATION ${data} FILES_MATCHING PATTERN *.gp PATTERN *.bash)
+install(DIRECTORY utils/plots DESTINATION ${data} FILES_MATCHING PATTERN *.gp PATTERN *.bash PATTERN *.awk)
 install(PROGRAMS utils/plots/draw utils/plots/animate DESTINATION ${data}/plots)
 install(PROGRAMS utils/check_paraview.py DESTINATION ${data})
 foreach(script draw animate)

@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 """Reads snapshots as ParaView does, with VTK's own reader, and as h5py does, and compares.
 
-usage: check_paraview.py [--particles N] SNAPSHOT.vtkhdf...
+usage: check_paraview.py [--particles N] SNAPSHOT.vtkhdf... [outlines.xdmf]
 
-Needs python3-vtk9 and python3-h5py. Exit status 0 when every snapshot is as
-docs/files.md says, 1 with one line for each thing that is not.
+Needs python3-vtk9 and python3-h5py; of outlines.xdmf it looks whether what it names is there
+(Debian's VTK has no reader of XDMF). Exit status 0 when every file is as docs/files.md says,
+1 with one line for each thing that is not.
 """
 import argparse
+import os
 import sys
+from xml.etree import ElementTree
 
 import h5py
 import numpy
@@ -98,6 +101,30 @@ def check(path, particles):
     return found
 
 
+def check_outlines(path):
+    """Everything that is wrong with the outlines of solids that an XDMF file leads to."""
+    found = []
+    collection = ElementTree.parse(path).getroot().find("Domain/Grid")
+    for moment in collection:
+        time = float(moment.find("Time").get("Value"))
+        for solid in moment.findall("Grid"):
+            arrays = []
+            for item in solid.iter("DataItem"):
+                name, dataset = item.text.split(":")
+                with h5py.File(os.path.join(os.path.dirname(path), name), "r") as file:
+                    arrays.append(file[dataset][:])
+                    if file.attrs["time"] != time:
+                        found.append(f"{name} is of another time than {time:g}")
+                if arrays[-1].size != numpy.prod([int(n) for n in item.get("Dimensions").split()]):
+                    found.append(f"{name}{dataset} has another extent")
+            order, points = arrays
+            if not (numpy.array_equal(order, range(len(points))) and numpy.array_equal(points[0], points[-1])):
+                found.append(f"the outline of {solid.get('Name')} at time {time:g} is not closed")
+    if not found:
+        print(f"{path}: {len(moment.findall('Grid'))} solids at {len(collection)} times")
+    return found
+
+
 def main():
     """Checks the snapshots named on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -107,7 +134,7 @@ def main():
     wrong = 0
     for path in options.snapshots:
         try:
-            found = check(path, options.particles)
+            found = check_outlines(path) if path.endswith(".xdmf") else check(path, options.particles)
         except (OSError, KeyError) as error:
             found = [str(error)]
         for line in found:

@@ -22,9 +22,10 @@ module recorder
    use result_directory, only: energy_name, errors_name, probes_name, result_directory_t, series_name, solids_name, walls_name
    use series, only: series_t
    use settings, only: settings_t
-   use snapshot, only: snapshot_field, snapshot_head, write_snapshot
+   use snapshot, only: snapshot_field, snapshot_head, snapshot_outline, write_snapshot
    use snapshot_fields, only: fill_fields
    use solid_table, only: solid_table_t
+   use solids, only: new_obstacle, obstacle_t
    use step_state, only: step_t
    use table, only: table_t
    use time_scale, only: new_time_scale, time_scale_t
@@ -121,6 +122,8 @@ contains
                                 density=model%rho0, gravity=model%gravity)
       ! Within the constructor gfortran 12 takes the length before trimming, and what is in memory after the title.
       self%head%title = trim(scene%scene%title)
+      if (size(scene%solids) > 0) call self%series%name_solids(scene%solids%name, &
+                                                               [(size(model%solids(k)%outline, 2), k=1, size(scene%solids))])
       allocate (self%sensors(size(scene%probes)), self%gauges(size(scene%gauges)))
       do k = 1, size(scene%probes)
          self%sensors(k) = new_sensor(model, scene%probes(k))
@@ -317,10 +320,26 @@ contains
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
       call write_snapshot(path, self%head, [(i, i=order%first, order%last)], order%sorted(p%base%x), order%sorted(p%base%y), &
-                          fields, scene%output%precision, problem)
+                          fields, scene%output%precision, problem, outlines_at(scene, model, run%time))
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
+
+   ! Where solids are at a time.
+   function outlines_at(scene, model, time) result(outlines)
+      type(settings_t), intent(in) :: scene
+      type(model_t), intent(in) :: model
+      real(dp), intent(in) :: time
+      type(snapshot_outline) :: outlines(size(scene%solids))
+      type(obstacle_t) :: obstacle
+      integer :: k
+
+      do k = 1, size(outlines)
+         obstacle = new_obstacle(model%solids(k), model%box_at(time))
+         outlines(k)%name = trim(scene%solids(k)%name)
+         outlines(k)%corners = obstacle%outline
+      end do
+   end function outlines_at
 
    !> All rows and snapshots so far are on the disk.
    subroutine secure(self, directory, problem)

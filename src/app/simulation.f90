@@ -6,6 +6,7 @@ module simulation
    use checkpoint_file, only: checkpoint_file_t
    use checkpoints, only: checkpoints_t
    use communication, only: is_first
+   use contact_watch, only: watch_contacts
    use cost, only: cost_t, estimate_cost
    use errors, only: exit_files, exit_input, exit_numerics, exit_stopped, failure
    use file_system, only: delete_file, file_bytes, path_exists, write_whole_file
@@ -15,12 +16,13 @@ module simulation
    use particles, only: particles_t, swap_states
    use progress, only: progress_t
    use report, only: closing_table, start_box, write_summary_file
-   use result_directory, only: input_name, log_name, result_directory_t, series_name, summary_name
+   use result_directory, only: input_name, log_name, outlines_name, result_directory_t, series_name, summary_name
    use room, only: check_room
    use run_log, only: log_t
    use run_state, only: run_state_t
    use scene_setup, only: count_particles, set_up_particles
    use settings, only: settings_t
+   use solid_contacts, only: contacts_t
    use step_check, only: check_step
    use step_state, only: start_extremes, step_t
    use stopping, only: stopping_t
@@ -217,8 +219,9 @@ contains
          continue
       else if (state%recorder%series%count() > 0) then
          call state%recorder%series%write(directory%file(series_name), problem)
-      else if (path_exists(directory%file(series_name))) then
-         call delete_file(directory%file(series_name), ignored)
+      else
+         if (path_exists(directory%file(series_name))) call delete_file(directory%file(series_name), ignored)
+         if (path_exists(directory%file(outlines_name))) call delete_file(directory%file(outlines_name), ignored)
       end if
       call problem%tell()
    end subroutine open_files
@@ -247,11 +250,13 @@ contains
       character(:), allocatable, intent(out) :: status
       type(failure), intent(inout) :: problem
       type(progress_t) :: progress
+      type(contacts_t) :: contacts
       type(step_t) :: before
       integer, parameter :: cannot_write = 1, shall_stop = 2, checkpoint_due = 3
       logical :: notes(3)   ! of what single processes know
       logical :: saved   ! this state, because the run shall stop
 
+      call watch_contacts(contacts, log, scene, model, state%step, problem)
       call progress%start(state%step%time, scene%time%end_time, state%step%step, state%p%n)
       call progress%limit(scene%time%max_steps, scene%time%max_wall_time)
       saved = .false.
@@ -302,7 +307,8 @@ contains
             call record_failure(scene, model, state, directory, 'The state before the step', problem)
             exit
          end if
-         call watch_balance(scene%time%balance_limit, model, state, problem)
+         call watch_contacts(contacts, log, scene, model, state%step, problem)
+         if (.not. problem%raised()) call watch_balance(scene%time%balance_limit, model, state, problem)
          if (problem%raised()) then
             status = 'failed: numerics'
             call record_failure(scene, model, state, directory, 'The state', problem)

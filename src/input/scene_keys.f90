@@ -235,8 +235,10 @@ contains
       call keys%only_with("motion = 'table'", moved%motion == 'table')
       call keys%add(key_t('table', 'Its way in 2 to 2000 rows of time [s], shift in x and y [m] and angle [degrees]; it rests '// &
                           'after the last.', 's, m, degrees', numbers=moved%table))
-      call keys%add(key_t('table_file', 'Instead of table: a text file with a row in each line, the angle may lack; its path '// &
-                          "from the scene's file on. It is read in as table."), moved%table_file)
+      call keys%add(key_t('table_of', 'Accelerations (per s2) act from rest.', &
+                          choices=[character(choice_length) :: 'position', 'acceleration']), moved%table_of)
+      call keys%add(key_t('table_file', 'Instead of table: a text file of its rows, the angle may lack; its path from the '// &
+                          "scene's file on."), moved%table_file)
       call keys%only_with('', .true.)
    end subroutine add_keys_of_motion
 

@@ -99,7 +99,9 @@ module settings
       real(dp) :: period = 0.0_dp                    !! [s]
       real(dp) :: phase = 0.0_dp                     !! [degrees]
       real(dp) :: ramp = 0.0_dp                      !! within which an oscillation sets in [s]
-      type(number_list_t) :: table                   !! t [s], shift in x and y [m], angle [degrees] of each row
+      character(choice_length) :: table_of = 'position'
+      type(number_list_t) :: table                   !! t [s], shift in x and y [m], angle [degrees] of each row, or their
+                                                     !! second derivatives
       character(path_length) :: table_file = ''      !! '' after reading
    end type motion_settings
 

@@ -5,7 +5,7 @@ module solid_outlines
    use polygons, only: polygon_area, polygon_centroid, polygon_second_moment, regular_polygon, turned
    use rigid_bodies, only: rigid_body_t
    use settings, only: motion_settings, settings_t, solid_settings
-   use smooth_tables, only: new_smooth_table
+   use smooth_tables, only: new_acceleration_table, new_smooth_table
    implicit none
    private
 
@@ -87,7 +87,11 @@ contains
          motion%kind = tabulated
          rows = transpose(reshape(moved%table%values, [4, moved%table%n()/4]))
          rows(:, 4) = rows(:, 4)*degree
-         motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
+         if (moved%table_of == 'acceleration') then
+            motion%table = new_acceleration_table(rows(:, 1), rows(:, 2:))
+         else
+            motion%table = new_smooth_table(rows(:, 1), rows(:, 2:))
+         end if
       end select
    end function motion_of
 

@@ -20,6 +20,7 @@ module result_directory
    character(*), parameter, public :: walls_name = 'walls.dat'
    character(*), parameter, public :: summary_name = 'summary.txt'
    character(*), parameter, public :: series_name = 'snapshots.vtkhdf.series'
+   character(*), parameter, public :: outlines_name = 'outlines.xdmf'
    character(*), parameter, public :: checkpoint_names(2) = ['checkpoint_a.h5', 'checkpoint_b.h5']   !! in turn
    character(*), parameter, public :: lock_name = 'run.lock'
    character(*), parameter, public :: stop_name = 'STOP'   !! a file that the user makes: the run shall stop
@@ -29,9 +30,10 @@ module result_directory
 
    !> Everything dynsph writes and may therefore delete, as shell patterns.
    character(*), parameter :: own_files(*) = [character(64) :: checkpoint_names, log_name, energy_name, probes_name, summary_name, &
-      errors_name, solids_name, walls_name, series_name, any_snapshot, input_name, &   ! by the last one the others are known
+      errors_name, solids_name, walls_name, outlines_name, series_name, any_snapshot, &
+      input_name, &   ! by the last one the others are known
       input_name//'.partial', summary_name//'.partial', series_name//'.partial', any_snapshot//'.partial', &
-      checkpoint_names//'.partial']
+      outlines_name//'.partial', checkpoint_names//'.partial']
 
    !> What shows that a directory holds a result.
    character(*), parameter :: result_signs(*) = [character(16) :: log_name, energy_name, summary_name, '*.vtkhdf', &
@@ -45,7 +47,7 @@ module result_directory
 
    type(beginning_t), parameter :: beginnings(*) = [beginning_t('.dat', '# title: '), &
       beginning_t(summary_name, 'status = '), beginning_t('.series', '{'), beginning_t('.vtkhdf', char(137)//'HDF'), &
-      beginning_t('.h5', 'dynsph sealed file'), beginning_t(input_name, '! The complete input'), &
+      beginning_t('.xdmf', '<?xml'), beginning_t('.h5', 'dynsph sealed file'), beginning_t(input_name, '! The complete input'), &
       beginning_t(input_name, '! Forked from')]
 
    !> A result directory, and how much of its path this run has made.

@@ -1,4 +1,4 @@
-!> ParaView's file series: which snapshot file belongs to which time.
+!> ParaView's file series: which snapshot file belongs to which time, and where solids are then.
 module series
    use archive, only: archive_t
    use communication, only: is_first
@@ -6,7 +6,8 @@ module series
    use file_system, only: write_whole_file
    use growing_text, only: growing_text_t
    use kinds, only: dp
-   use result_directory, only: snapshot_name
+   use outline_series, only: outlines_as_xdmf
+   use result_directory, only: outlines_name, snapshot_name
    use timers, only: wall_seconds
    implicit none
    private
@@ -22,7 +23,10 @@ module series
       real(dp), allocatable :: times(:)   !! (n, with room for more)
       real(dp) :: last_written = -huge(1.0_dp)   !! (not kept: of the clock)
       logical :: behind = .false.   !! the file lacks the latest (not kept: seen when it is written)
+      character(:), allocatable :: solids(:)   !! names; not allocated where there are none (not kept: of the scene)
+      integer, allocatable :: corners(:)       !! of each (not kept: of the scene)
    contains
+      procedure :: name_solids
       procedure :: add
       procedure :: write => write_series
       procedure :: finish
@@ -42,6 +46,16 @@ contains
       if (file%reading) self%times = spread(0.0_dp, 1, self%n)
       if (self%n > 0) call file%keep('times', self%times(:self%n))
    end subroutine archive_series
+
+   !> Says that there are solids: then `outlines_name` is written beside the series.
+   subroutine name_solids(self, names, corners)
+      class(series_t), intent(inout) :: self
+      character(*), intent(in) :: names(:)
+      integer, intent(in) :: corners(:)   !! that each has
+
+      self%solids = names
+      self%corners = corners
+   end subroutine name_solids
 
    !> Forgets the snapshots: the run goes on in another directory.
    subroutine begin_anew(self)
@@ -78,6 +92,8 @@ contains
       type(failure), intent(inout) :: problem   !! exit_files
 
       call write_whole_file(path, as_json(self), problem)
+      if (allocated(self%solids)) call write_whole_file(path(:index(path, '/', back=.true.))//outlines_name, &
+         outlines_as_xdmf(self%times(:self%n), self%solids, self%corners), problem)
       self%behind = .false.
       self%last_written = wall_seconds()
    end subroutine write_series

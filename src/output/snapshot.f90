@@ -2,7 +2,7 @@
 !! and later open it without a plug-in, h5py users find named arrays with units.
 module snapshot
    use, intrinsic :: iso_fortran_env, only: int8
-   use communication, only: largest_of_all, n_processes, this_process
+   use communication, only: is_first, largest_of_all, n_processes, this_process
    use errors, only: failure
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: dp, i8, sp
@@ -10,10 +10,11 @@ module snapshot
    implicit none
    private
 
-   public :: snapshot_field, snapshot_head, write_snapshot
+   public :: snapshot_field, snapshot_head, snapshot_outline, write_snapshot
 
    character(*), parameter :: grid = '/VTKHDF'
    character(*), parameter :: points = grid//'/PointData/'
+   character(*), parameter, public :: outlines_group = '/outlines'   !! a group in it for each solid, by its name
    integer(int8), parameter :: vtk_vertex = 1_int8   !! VTK's number of the cell that is one point
 
    !> One quantity on all particles: a scalar or a plane vector.
@@ -24,6 +25,12 @@ module snapshot
       real(dp), allocatable :: values(:)       !! (n), or
       real(dp), allocatable :: vectors(:, :)   !! (n, 2)
    end type snapshot_field
+
+   !> A solid at the snapshot's time; all processes have it.
+   type :: snapshot_outline
+      character(:), allocatable :: name         !! letters, digits, _ and -
+      real(dp), allocatable :: corners(:, :)    !! (2, n) of a polygon [length]
+   end type snapshot_outline
 
    !> What a snapshot says about the run it comes from.
    type :: snapshot_head
@@ -43,7 +50,7 @@ module snapshot
 contains
 
    !> Writes one snapshot; under its name it is always complete. Particles keep their order.
-   subroutine write_snapshot(path, head, id, x, y, fields, precision, problem)
+   subroutine write_snapshot(path, head, id, x, y, fields, precision, problem, outlines)
       character(*), intent(in) :: path
       type(snapshot_head), intent(in) :: head
       integer, intent(in), contiguous :: id(:)       !! (n) lasting number of each particle
@@ -51,6 +58,7 @@ contains
       type(snapshot_field), intent(in) :: fields(:)  !! of n particles each
       character(*), intent(in) :: precision          !! 'single' or 'double', of positions and fields
       type(failure), intent(inout) :: problem        !! exit_files: cannot be written
+      type(snapshot_outline), intent(in), optional :: outlines(:)   !! of all solids
       type(hdf5_writer_t) :: file
       logical :: single, single_places
       integer :: i
@@ -77,6 +85,7 @@ contains
       call file%make_group(grid//'/FieldData')
       call file%put_reals(grid//'/FieldData/TimeValue', [head%time], single=.false., in_parts=.false.)
       call label(file, grid//'/FieldData/TimeValue', 'time', 'time of the snapshot')
+      if (present(outlines)) call write_outlines(file, outlines)
       call file%finish(problem)
    end subroutine write_snapshot
 
@@ -145,6 +154,28 @@ contains
       end if
       call label(file, points//field%name, text_or_none(field%unit), text_or_none(field%long_name))
    end subroutine write_field
+
+   ! Outside of VTK's group, whose reader takes one grid; outlines.xdmf (module outline_series) leads ParaView there.
+   subroutine write_outlines(file, outlines)
+      type(hdf5_writer_t), intent(inout) :: file
+      type(snapshot_outline), intent(in) :: outlines(:)
+      integer :: i, k, n, rows
+
+      if (size(outlines) == 0) return
+      call file%make_group(outlines_group)
+      do i = 1, size(outlines)
+         associate (group => outlines_group//'/'//outlines(i)%name, corners => outlines(i)%corners)
+            n = size(corners, 2)
+            rows = merge(n + 1, 0, is_first())
+            call file%make_group(group)
+            call file%put_vectors(group//'/points', [(corners(1, mod(k, n) + 1), k=0, rows - 1)], &
+                                  [(corners(2, mod(k, n) + 1), k=0, rows - 1)], single=.false.)
+            call label(file, group//'/points', 'length', 'corners of the solid, closed (x, y, 0)')
+            call file%put_integers(group//'/order', [(k, k=0, rows - 1)])
+            call label(file, group//'/order', '-', 'the points along the line, for VTK')
+         end associate
+      end do
+   end subroutine write_outlines
 
    subroutine label(file, dataset, unit, long_name)
       type(hdf5_writer_t), intent(inout) :: file

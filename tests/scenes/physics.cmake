@@ -30,6 +30,18 @@ add_test(NAME still_tank_holds COMMAND ${CMAKE_COMMAND} -DFILE=${here}/still_tan
    -P ${scenes}/check_summary.cmake)
 set_tests_properties(still_tank_stays_still still_tank_holds PROPERTIES FIXTURES_REQUIRED still_tank_result TIMEOUT 30)
 
+# A tank by a table of its acceleration, 20 rows of -0.01 w**2 sin(w t), does the work of the oscillation 0.01 sin(w t), 1.28647e-3.
+set(rows "0,0,0,0,.2,-.0076247,0,0,.4,-.014503,0,0,.6,-.0199617,0,0,.8,-.0234664,0,0,1,-.024674,0,0,1.2,-.0234664,0,0")
+string(APPEND rows ",1.4,-.0199617,0,0,1.6,-.014503,0,0,1.8,-.0076247,0,0,2,0,0,0,2.2,.0076247,0,0,2.4,.014503,0,0,2.6,.0199617,0,0")
+string(APPEND rows ",2.8,.0234664,0,0,3,.024674,0,0,3.2,.0234664,0,0,3.4,.0199617,0,0,3.6,.014503,0,0,3.8,.0076247,0,0,4,0,0,0")
+add_test(NAME accelerated_tank_runs COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--quiet;--set;time.end_time=4;--set;tank.motion=table;--set;tank.table_of=acceleration;--set;tank.table=${rows};--output;accelerated_tank;${scenes}/still_tank.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DCREATED=accelerated_tank" -P ${run_and_expect})
+set_tests_properties(accelerated_tank_runs PROPERTIES FIXTURES_SETUP accelerated_tank_result TIMEOUT 60)
+add_test(NAME accelerated_tank_does_the_work COMMAND ${CMAKE_COMMAND} -DFILE=${here}/accelerated_tank/summary.txt
+   "-DRULES=force_work|1.286e-3|1.287e-3;energy_balance_error|0|1e-6" -P ${scenes}/check_summary.cmake)
+set_tests_properties(accelerated_tank_does_the_work PROPERTIES FIXTURES_REQUIRED accelerated_tank_result TIMEOUT 30)
+
 # So does water given in layers, and in a uniform force in place of gravity.
 set(still_layers "${scenes}/still_layers.nml")
 set(still_force "--set;time.end_time=4;--set;fluid.gravity=0;--set;force.acceleration=0,-1;${scenes}/still_tank.nml")

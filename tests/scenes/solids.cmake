@@ -43,6 +43,17 @@ a_solid(pushed_block ${PROJECT_SOURCE_DIR}/input/pushed_block.nml "W_stat/dE 0 1
    "energy_balance_error|0|3e-3;W_solid|0.05|0.07" scene.resolution=20)
 a_solid(belt ${scenes}/belt.nml "W_stat 0 1e-3" "belt.friction_x 0.2 -0.35 -0.18" "energy_balance_error|0|1e-4")
 
+# Where the block is at each time: ParaView is led there, and pictures find it in the head of a table.
+add_test(NAME paraview_finds_outlines COMMAND sh -c
+   "/usr/bin/python3 -c 'import vtkmodules.vtkIOHDF, h5py' 2>/dev/null || { echo 'no python3 with vtk and h5py'; exit 77; }; exec /usr/bin/python3 '${PROJECT_SOURCE_DIR}/utils/check_paraview.py' snapshot_*.vtkhdf outlines.xdmf")
+set_tests_properties(paraview_finds_outlines PROPERTIES WORKING_DIRECTORY ${here}/solid_pushed_block SKIP_RETURN_CODE 77
+   FIXTURES_REQUIRED solid_pushed_block_result TIMEOUT 60)
+add_test(NAME solid_outline_is_where_the_block_is COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=$<TARGET_FILE:dynsph-snapshot-to-text>;solid_pushed_block/snapshot_000010.vtkhdf"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0
+   "-DEXPECT=# outline of block:  2.3000000E.000  3.0000000E-001\n# outline of block:  2.7000000E.000  3.0000000E-001\n" -P ${run_and_expect})
+set_tests_properties(solid_outline_is_where_the_block_is PROPERTIES FIXTURES_REQUIRED solid_pushed_block_result TIMEOUT 30)
+
 # The flow above the belt's middle, in layers of 0.05: U erfc(y/sqrt(4 nu t)) at t = 0.5, to 1 % of U where the flow that returns from
 # the ends (0.7 % of U) does not matter yet.
 add_test(NAME solid_belt_snapshot COMMAND $<TARGET_FILE:dynsph-snapshot-to-text> ${here}/solid_belt/snapshot_000001.vtkhdf
@@ -97,3 +108,12 @@ add_test(NAME refuses_solids_through_periodic_sides COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--output;through;${scenes}/still_block.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=moves through the periodic right side of &domain at t = 1.6" -P ${run_and_expect})
 set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_through_periodic_sides PROPERTIES TIMEOUT 30)
+
+# Solids that come too near, once; the run ends where they collide, and keeps what it has.
+file(READ ${scenes}/still_block.nml text)
+file(WRITE ${here}/collision.nml "${text}\n&solid name = 'ram', shape = 'rectangle', lower = 0.2, 0.2, upper = 0.4, 0.6, motion = 'uniform', velocity = 0.3, 0 /\n")
+add_test(NAME solid_collision_ends_the_run COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--quiet;--overwrite;--set;output.snapshots=never;--output;collision;${here}/collision.nml" -DWORKING_DIRECTORY=${here}
+   -DEXIT_STATUS=2 "-DEXPECT=warning: &solid 'ram' is only .* dx from 'block' at t = .*;&solid 'ram' collides with 'block' at t = .* change their motions, or end the run before. The state is in the last snapshot"
+   "-DREJECT=further warnings" "-DCREATED=collision/snapshot_000000.vtkhdf;collision/solids.dat" -P ${run_and_expect})
+set_tests_properties(solid_collision_ends_the_run PROPERTIES TIMEOUT 60)

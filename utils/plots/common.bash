@@ -43,15 +43,20 @@ find_snapshots() {
       complain "dynsph-snapshot-to-text not found: build dynsph, or set DYNSPH_BIN to its directory"
 }
 
-# common_frame < HEADS: settings of field.gp: left, right and upper end of the particles of all tables, in reference lengths.
+# common_frame < HEADS: settings of field.gp: left, right and upper end of the particles of all tables, in reference lengths. Where
+# solids stand out of the fluid, up to half of its height more.
 common_frame() {
    awk '
       $2 == "reference_length:" { d = $3 } $2 == "spacing:" { dx = $3 } $2 == "gravity:" { g = $3 }
+      $2 == "outline" { n++; x[n] = $5; y[n] = $6 }
       $2 != "range" { next }
       $4 == "x:" && (!seen_x || $5 < left) { left = $5 }
       $4 == "x:" && (!seen_x++ || $6 > right) { right = $6 }
       $4 == "y:" && (!seen_y || $5 < lower) { lower = $5 }
       $4 == "y:" && (!seen_y++ || $6 > upper) { upper = $6 }
       END { if (!(d > 0 && g > 0)) d = 1
+            top = upper
+            for (k = 1; k <= n; k++) if (x[k] >= left && x[k] <= right && y[k] > top) top = y[k]
+            if (top > upper) upper = top < 1.5*upper - 0.5*lower ? top : 1.5*upper - 0.5*lower
             printf "x_min=%.9g; x_max=%.9g; y_min=%.9g; y_max=%.9g", (left - dx/2)/d, (right + dx/2)/d, (lower - dx/2)/d, (upper + dx/2)/d }'
 }

@@ -1,4 +1,4 @@
-# Particles of one snapshot coloured by speed and by pressure, or by other fields.
+# Particles of one snapshot coloured by speed and by pressure, or by other fields; outlines of solids.
 #
 # usage: gnuplot -e "dir='RESULT'" utils/plots/field.gp      the last snapshot, as RESULT/field.png
 #
@@ -90,6 +90,13 @@ shape = animated && pixels <= 3 ? '(0.5*dx/d):(0.5*dx/d):' : pixels > 2 ? '(0.56
 style = animated && pixels <= 3 ? 'boxxyerror' : pixels > 2 ? 'circles' : pixels > 0.6 ? 'points pointtype 7 pointsize 0.22' : 'dots'
 colour = animated ? '(palette(column(place)/scale)) with '.style.' linecolor rgb variable' \
    : '(column(place)/scale) with '.style.' linecolor palette'
+# Solids: grey below the fluid, the outline above it.
+corners(frame) = "'< awk ".frame." -f ''".plots."/outlines.awk'' ''".table."''' using ($1/d):($2/d) "
+frame = sprintf("-v frame=''%.9g %.9g %.9g %.9g''", d*(x_min - margin), d*(x_max + margin), d*(y_min - margin), d*(y_max + margin))
+solid = strlen(head_text(table, 'outline of .*')) > 0
+areas = solid ? corners(frame)."with filledcurves closed fillcolor rgb '#e4e4e4', " : ''
+outlines = solid ? ', '.corners('').'with lines linewidth 1.5 linecolor rgb black' : ''
+set clip two   # of an edge both ends may be outside
 do for [i=1:n] {
    name = word(panels, i)
    row = (i - 1)/columns
@@ -138,7 +145,7 @@ do for [i=1:n] {
    bottom_label = i > n - columns ? (scaled ? 'x / d' : 'x') : ''
    set xlabel bottom_label offset 0,0.3
    set ylabel scaled ? 'y / d' : 'y' offset 1,0
-   eval 'plot table using (column(xc)/d):(column(yc)/d):'.shape.colour
+   eval 'plot '.areas.'table using (column(xc)/d):(column(yc)/d):'.shape.colour.outlines
    if (animated) {
       # The box of colours, as a plot beside the panel.
       set lmargin at screen 1.0*(start + frame_x + 18)/size_x

@@ -3,8 +3,9 @@
 !! usage: dynsph-snapshot-to-text SNAPSHOT.vtkhdf [TABLE.txt]
 !!
 !! The head says `# key: value` for the attributes that pictures need, and
-!! `# range of NAME: smallest largest mean deviation` for each column; a line of
-!! column names follows, then one row for each particle. A vector gives three columns:
+!! `# range of NAME: smallest largest mean deviation` for each column, and
+!! `# outline of NAME: x y` for each corner of a solid, the first one again at the end; a
+!! line of column names follows, then one row for each particle. A vector gives three columns:
 !! NAME_x, NAME_y and its magnitude NAME. Without a second file name the table goes to
 !! standard output. Exit codes as dynsph's.
 program snapshot_to_text
@@ -21,9 +22,16 @@ program snapshot_to_text
       real(dp), allocatable :: values(:)   !! (n)
    end type column_t
 
+   !> A solid.
+   type :: outline_t
+      character(name_length) :: name = ''
+      real(dp), allocatable :: points(:, :)   !! (3, n) closed
+   end type outline_t
+
    type(failure) :: problem
    type(hdf5_reader_t) :: file
    type(column_t), allocatable :: columns(:)
+   type(outline_t), allocatable :: outlines(:)
 
    if (command_argument_count() < 1 .or. command_argument_count() > 2) then
       call problem%raise(exit_input, 'usage: dynsph-snapshot-to-text SNAPSHOT.vtkhdf [TABLE.txt]')
@@ -32,7 +40,8 @@ program snapshot_to_text
    call errors_for_signals(pipes=.false.)
    call file%open(argument(1), problem)
    if (.not. problem%raised()) call read_columns(file, columns, problem)
-   if (.not. problem%raised()) call write_table(file, columns, problem)
+   if (.not. problem%raised()) call read_outlines(file, outlines, problem)
+   if (.not. problem%raised()) call write_table(file, columns, outlines, problem)
    call file%close()
    call end_program(problem)
 
@@ -80,6 +89,22 @@ contains
       columns = wide(:n)
    end subroutine read_columns
 
+   subroutine read_outlines(file, outlines, problem)
+      type(hdf5_reader_t), intent(in) :: file
+      type(outline_t), allocatable, intent(out) :: outlines(:)
+      type(failure), intent(inout) :: problem   !! exit_files
+      character(name_length), allocatable :: names(:)
+      integer :: i
+
+      call file%solid_names(names, problem)
+      allocate (outlines(size(names)))
+      do i = 1, size(names)
+         if (problem%raised()) return
+         outlines(i)%name = names(i)
+         call file%read_outline(names(i), outlines(i)%points, problem)
+      end do
+   end subroutine read_outlines
+
    subroutine add_column(columns, n, name, values)
       type(column_t), intent(inout) :: columns(:)
       integer, intent(inout) :: n   !! columns so far
@@ -91,9 +116,10 @@ contains
       columns(n)%values = values
    end subroutine add_column
 
-   subroutine write_table(file, columns, problem)
+   subroutine write_table(file, columns, outlines, problem)
       type(hdf5_reader_t), intent(in) :: file
       type(column_t), intent(in) :: columns(:)
+      type(outline_t), intent(in) :: outlines(:)
       type(failure), intent(inout) :: problem   !! exit_files: cannot be written
       character(256) :: message
       character(:), allocatable :: reason, where
@@ -118,6 +144,12 @@ contains
       do i = 1, size(columns)
          write (line, '(3a, 4es16.7e3)') '# range of ', trim(columns(i)%name), ':', range_of(columns(i)%values)
          call put(unit, trim(line), bytes, status, message)
+      end do
+      do i = 1, size(outlines)
+         do k = 1, size(outlines(i)%points, 2)
+            write (line, '(3a, 2es16.7e3)') '# outline of ', trim(outlines(i)%name), ':', outlines(i)%points(:2, k)
+            call put(unit, trim(line), bytes, status, message)
+         end do
       end do
       line = ''
       do i = 1, size(columns)

@@ -1,4 +1,4 @@
-!> Reading what snapshots hold: arrays as columns of reals, numbers of the root group, the title.
+!> Reading what snapshots hold: arrays as columns of reals, outlines of solids, numbers of the root group, the title.
 !!
 !! Texts of variable length, as the root group has them, are not touched: they are in a heap without a checksum, and version 1.10
 !! of the HDF5 library crashes on damaged ones. The title is there once more, of fixed length; earlier versions had it only there.
@@ -7,10 +7,11 @@ module hdf5_reader
    use errors, only: exit_files, failure
    use hdf5, only: h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_by_name_f, h5aopen_f, h5aread_f, h5dclose_f, &
       h5dget_space_f, h5dopen_f, h5dread_f, h5eset_auto_f, h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gget_obj_info_idx_f, &
-      h5gn_members_f, h5open_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, &
+      h5gn_members_f, h5lexists_f, h5open_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, &
       h5sget_simple_extent_npoints_f, h5t_float_f, h5t_integer_f, h5t_native_double, h5t_string_f, h5tclose_f, h5tget_class_f, &
       h5tget_size_f, h5tis_variable_str_f, hid_t, hsize_t
    use kinds, only: dp
+   use snapshot, only: outlines_group
    use text, only: to_text
    implicit none
    private
@@ -37,6 +38,8 @@ module hdf5_reader
       procedure :: field_names
       procedure :: read_points
       procedure :: read_field
+      procedure :: solid_names
+      procedure :: read_outline
       procedure :: number
       procedure :: title
    end type hdf5_reader_t
@@ -113,17 +116,40 @@ contains
       class(hdf5_reader_t), intent(in) :: self
       character(name_length), allocatable, intent(out) :: names(:)
       type(failure), intent(inout) :: problem
+
+      call list_members(self, fields, names, problem)
+   end subroutine field_names
+
+   !> Names of the solids that it has outlines of, none in files of before there were any.
+   subroutine solid_names(self, names, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      character(name_length), allocatable, intent(out) :: names(:)
+      type(failure), intent(inout) :: problem   !! exit_files: one is damaged
+      logical :: there
+      integer :: status
+
+      allocate (names(0))
+      call h5lexists_f(self%file, outlines_group, there, status)
+      if (status < 0 .or. there) call list_members(self, outlines_group, names, problem)
+   end subroutine solid_names
+
+   ! What a group has.
+   subroutine list_members(self, group, names, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: group
+      character(name_length), allocatable, intent(out) :: names(:)
+      type(failure), intent(inout) :: problem
       integer :: i, kind, members, status
 
-      call h5gn_members_f(self%file, fields, members, status)
+      call h5gn_members_f(self%file, group, members, status)
       if (status < 0) members = 0
       allocate (names(members))
       names = ''
       do i = 1, members
-         if (status >= 0) call h5gget_obj_info_idx_f(self%file, fields, i - 1, names(i), kind, status)
+         if (status >= 0) call h5gget_obj_info_idx_f(self%file, group, i - 1, names(i), kind, status)
       end do
       if (status < 0) call problem%raise(exit_files, "cannot read which arrays '"//self%path//"' has; "//damaged)
-   end subroutine field_names
+   end subroutine list_members
 
    !> Positions, (3, n).
    subroutine read_points(self, values, problem)
@@ -136,6 +162,19 @@ contains
       if (size(values, 1) /= 3) &
          call problem%raise(exit_files, "the points of '"//self%path//"' have no three coordinates; "//damaged)
    end subroutine read_points
+
+   !> The outline of a solid, (3, n), its first corner again at the end.
+   subroutine read_outline(self, name, values, problem)
+      class(hdf5_reader_t), intent(in) :: self
+      character(*), intent(in) :: name
+      real(dp), allocatable, intent(out) :: values(:, :)
+      type(failure), intent(inout) :: problem   !! exit_files: cannot be read
+
+      call read_array(self, outlines_group//'/'//trim(name)//'/points', values, problem)
+      if (problem%raised()) return
+      if (size(values, 1) /= 3) &
+         call problem%raise(exit_files, "the outline '"//trim(name)//"' of '"//self%path//"' has no three coordinates; "//damaged)
+   end subroutine read_outline
 
    !> A particle array, (1 or 3, n). Raises exit_files if it is not there, or has other extents.
    subroutine read_field(self, name, n, values, problem)
