@@ -1,12 +1,14 @@
-!> A watch on moving solids: a warning where one leaves too narrow a gap, the end of the run where two collide.
+!> A watch on moving solids: a warning where one leaves too narrow a gap, the end of the run where two collide or a free one leaves
+!! the box.
 module contact_watch
+   use box, only: open_side
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use model, only: model_t
    use run_log, only: log_t
    use settings, only: settings_t, side_names
    use solid_contacts, only: contact_t, contacts_t
-   use solids, only: new_obstacle
+   use solids, only: new_obstacle, obstacle_t
    use step_state, only: step_t
    use text, only: quoted, short
    implicit none
@@ -27,6 +29,7 @@ contains
       type(step_t), intent(in) :: run
       type(failure), intent(inout) :: problem   !! exit_numerics: two collide
       type(contact_t), allocatable :: found(:)
+      type(obstacle_t) :: obstacles(size(scene%solids))
       logical :: moves(size(scene%solids))
       integer :: i, k
 
@@ -35,8 +38,17 @@ contains
       moves = [(model%solids(k)%motion%moves(), k=1, size(moves))]
       if (.not. any(moves)) return
       associate (box => model%box_at(run%time))
-         call contacts%find([(new_obstacle(model%solids(k), box), k=1, size(moves))], moves, box, &
-                            wide_enough*model%kernel%support, found)
+         do k = 1, size(moves)
+            obstacles(k) = new_obstacle(model%solids(k), run%poses(k), box)
+         end do
+         call contacts%find(obstacles, moves, box, wide_enough*model%kernel%support, found)
+         do k = 1, size(moves)
+            if (.not. model%solids(k)%body%is_free()) cycle
+            if (any(box%kind /= open_side .and. [obstacles(k)%lower(1) < box%at(1), obstacles(k)%upper(1) > box%at(2), &
+                                                 obstacles(k)%lower(2) < box%at(3), obstacles(k)%upper(2) > box%at(4)])) &
+               call problem%raise(exit_numerics, '&solid '//quoted(scene%solids(k)%name)//' reaches a side of &domain at t = ' &
+                                  //short(run%time)//', and nothing holds a free body there: move the side, or end the run before')
+         end do
       end associate
       do i = 1, size(found)
          if (found(i)%collides) then

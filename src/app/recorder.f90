@@ -320,26 +320,26 @@ contains
       self%head%step = run%step
       path = directory%snapshot_path(self%series%count())
       call write_snapshot(path, self%head, [(i, i=order%first, order%last)], order%sorted(p%base%x), order%sorted(p%base%y), &
-                          fields, scene%output%precision, problem, outlines_at(scene, model, run%time))
+                          fields, scene%output%precision, problem, outlines_of(scene, model, run))
       if (problem%raised()) return
       call self%series%add(directory%file(series_name), run%time, problem)
    end subroutine save_snapshot
 
-   ! Where solids are at a time.
-   function outlines_at(scene, model, time) result(outlines)
+   ! Where solids are.
+   function outlines_of(scene, model, run) result(outlines)
       type(settings_t), intent(in) :: scene
       type(model_t), intent(in) :: model
-      real(dp), intent(in) :: time
+      type(step_t), intent(in) :: run
       type(snapshot_outline) :: outlines(size(scene%solids))
       type(obstacle_t) :: obstacle
       integer :: k
 
       do k = 1, size(outlines)
-         obstacle = new_obstacle(model%solids(k), model%box_at(time))
+         obstacle = new_obstacle(model%solids(k), run%poses(k), model%box_at(run%time))
          outlines(k)%name = trim(scene%solids(k)%name)
          outlines(k)%corners = obstacle%outline
       end do
-   end function outlines_at
+   end function outlines_of
 
    !> All rows and snapshots so far are on the disk.
    subroutine secure(self, directory, problem)
