@@ -2,11 +2,12 @@
 !!
 !! A lattice that a slope has cut through is crowded here and has gaps there. Pressure pushes its particles about for long, and rows
 !! of them slide along the slope. So before t = 0 those near it follow -grad C, C = sum V W over fluid and solids, as if slowed down
-!! by friction, until C is even. Source: Colagrossi, Bouscasse, Antuono & Marrone, Comput. Phys. Commun. 183 (2012) 1641-1653.
+!! by friction, until C is even. Source: Colagrossi, Bouscasse, Antuono & Marrone, Comput. Phys. Commun. 183 (2012) 1641-1653. Ours:
+!! their areas adapt, because a slope does not leave room for a whole number of cells: what is left over would press on the others.
 module settled_sites
    use body_particles, only: count_sites, place_sites, sites_t
    use box, only: box_t, free_slip_wall
-   use kernel, only: kernel_gradient, kernel_t
+   use kernel, only: kernel_gradient, kernel_t, kernel_value
    use kinds, only: dp
    use open_sites, only: place_open
    use polygons, only: edge_normal, nearest_edge
@@ -22,6 +23,7 @@ module settled_sites
    integer, parameter :: rounds = 200           ! after which grad C is a thousandth of what it was
    real(dp), parameter :: pace = 0.15_dp        ! of a round's step, in h**2 grad C
    real(dp), parameter :: kept = 0.9_dp         ! of this step in the next round
+   real(dp), parameter :: ease = 0.02_dp        ! of the areas' way to the lattice's C, in a round
    real(dp), parameter :: aligned = 1.0e-6_dp   ! component of a normal below which a face lies along the lattice
    integer, parameter :: chunk = 65536          ! sites that are looked at at a time
 
@@ -30,8 +32,7 @@ module settled_sites
       integer :: n_moving = 0                !! sites that move; they come first
       real(dp), allocatable :: x(:), y(:)    !! (n) [m]
       real(dp), allocatable :: area(:)       !! (n) [m2]
-      real(dp) :: lower(2) = 0               !! [m] of the squares
-      integer, allocatable :: first(:, :)    !! in a square; 0: it is empty
+      integer, allocatable :: first(:, :)    !! in a square, from the body's lower left corner; 0: it is empty
       integer, allocatable :: next(:)        !! (n) in the same square; 0: none
    end type crowd_t
 
@@ -61,6 +62,7 @@ contains
          if (number(k) < first .or. number(k) > last) cycle
          sites%x(number(k)) = crowd%x(k)
          sites%y(number(k)) = crowd%y(k)
+         sites%area(number(k)) = crowd%area(k)
       end do
    end subroutine place_settled
 
@@ -174,22 +176,28 @@ contains
       if (k > 1) first_of = cells(k)%solid /= cells(k - 1)%solid .or. any(abs(cells(k)%place - cells(k - 1)%place) > 0)
    end function first_of
 
-   ! Steps down the slope of C, each with a part of the step before. None leads out of the body or into a solid.
+   ! Steps down the slope of C, each with a part of the step before. None leads out of the body or into a solid. Areas grow where C
+   ! is below the lattice's.
    subroutine settle(body, kernel, obstacles, crowd)
       type(body_settings), intent(in) :: body
       type(kernel_t), intent(in) :: kernel
       type(obstacle_t), intent(in) :: obstacles(:)
       type(crowd_t), intent(inout) :: crowd
-      real(dp), dimension(2, crowd%n_moving) :: step, place
+      real(dp), allocatable :: step(:, :), place(:, :), area(:)
+      real(dp) :: near(3), even
       integer :: i, round
 
-      step = 0
+      allocate (step(2, crowd%n_moving), place(2, crowd%n_moving), source=0.0_dp)
+      allocate (area(crowd%n_moving))
+      even = lattice_sum(kernel, crowd%area(1))
       do round = 1, rounds
-         call sort_into_squares(kernel%support, crowd)
-         !$omp parallel do default(none) shared(body, kernel, obstacles, crowd, step, place)
+         call sort_into_squares(body, kernel%support, crowd)
+         !$omp parallel do default(none) shared(body, kernel, obstacles, crowd, step, place, area, even) private(near)
          do i = 1, crowd%n_moving
             place(:, i) = [crowd%x(i), crowd%y(i)]
-            step(:, i) = kept*step(:, i) - pace*kernel%h**2*crowding(crowd, body, kernel, place(:, i))
+            near = crowding(crowd, body, kernel, place(:, i))
+            area(i) = crowd%area(i)*(1 + ease*(even - near(3)))
+            step(:, i) = kept*step(:, i) - pace*kernel%h**2*near(1:2)
             if (any(place(:, i) + step(:, i) < body%lower .or. place(:, i) + step(:, i) > body%upper)) step(:, i) = 0
             if (cover(obstacles, place(:, i) + step(:, i)) > 0) step(:, i) = 0
             place(:, i) = place(:, i) + step(:, i)
@@ -197,67 +205,89 @@ contains
          !$omp end parallel do
          crowd%x(:crowd%n_moving) = place(1, :)
          crowd%y(:crowd%n_moving) = place(2, :)
+         crowd%area(:crowd%n_moving) = area
       end do
    end subroutine settle
 
-   subroutine sort_into_squares(width, crowd)
+   ! C of the lattice, whose cells have an area.
+   pure real(dp) function lattice_sum(kernel, area) result(total)
+      type(kernel_t), intent(in) :: kernel
+      real(dp), intent(in) :: area   ! [m2]
+      integer :: i, j, n
+
+      n = int(kernel%support/sqrt(area)) + 1
+      total = 0
+      do j = -n, n
+         total = total + area*sum(kernel_value(kernel, [(sqrt(area*(i**2 + j**2)), i=-n, n)]))
+      end do
+   end function lattice_sum
+
+   subroutine sort_into_squares(body, width, crowd)
+      type(body_settings), intent(in) :: body
       real(dp), intent(in) :: width            ! [m]
       type(crowd_t), intent(inout) :: crowd
       integer :: at(2), k
 
       if (.not. allocated(crowd%first)) then
-         crowd%lower = [minval(crowd%x), minval(crowd%y)] - width
-         at = int(([maxval(crowd%x), maxval(crowd%y)] - crowd%lower)/width) + 2
+         at = square_of(body, width, body%upper)
          allocate (crowd%first(at(1), at(2)), crowd%next(size(crowd%x)))
       end if
       crowd%first = 0
       do k = 1, size(crowd%x)
-         at = int(([crowd%x(k), crowd%y(k)] - crowd%lower)/width) + 1
+         at = min(max(square_of(body, width, [crowd%x(k), crowd%y(k)]), 1), shape(crowd%first))
          crowd%next(k) = crowd%first(at(1), at(2))
          crowd%first(at(1), at(2)) = k
       end do
    end subroutine sort_into_squares
 
-   ! grad C at a place, with all that is mirrored at the body's sides: where its mirror image is, the sums are those of the images.
-   pure function crowding(crowd, body, kernel, place) result(gradient)
+   pure function square_of(body, width, place) result(at)
+      type(body_settings), intent(in) :: body
+      real(dp), intent(in) :: width, place(2)
+      integer :: at(2)
+
+      at = floor((place - body%lower)/width) + 1
+   end function square_of
+
+   ! grad C and C at a place, with all that is mirrored at the body's sides: where its image is, sums are those of the images.
+   pure function crowding(crowd, body, kernel, place) result(sums)
       type(crowd_t), intent(in) :: crowd
       type(body_settings), intent(in) :: body
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: place(2)
-      real(dp) :: gradient(2), seen(2), sign(2)
+      real(dp) :: sums(3), seen(2), sign(2)
       real(dp) :: images(2, 3)   ! of each coordinate
       integer :: i, j
 
-      gradient = 0
-      images(:, 1) = place
-      images(:, 2) = 2*body%lower - place
-      images(:, 3) = 2*body%upper - place
+      sums = 0
+      images = reshape([place, 2*body%lower - place, 2*body%upper - place], [2, 3])
       do j = 1, 3
          do i = 1, 3
             seen = [images(1, i), images(2, j)]
             if (any(seen < body%lower - kernel%support .or. seen > body%upper + kernel%support)) cycle
             sign = merge(1.0_dp, -1.0_dp, [i, j] == 1)
-            gradient = gradient + sign*sum_near(crowd, kernel, seen)
+            sums = sums + [sign, 1.0_dp]*sum_near(crowd, body, kernel, seen)
          end do
       end do
    end function crowding
 
-   ! sum_j V_j F (r_j - r)
-   pure function sum_near(crowd, kernel, place) result(total)
+   ! sum_j V_j F (r_j - r), sum_j V_j W
+   pure function sum_near(crowd, body, kernel, place) result(total)
       type(crowd_t), intent(in) :: crowd
+      type(body_settings), intent(in) :: body
       type(kernel_t), intent(in) :: kernel
       real(dp), intent(in) :: place(2)
-      real(dp) :: total(2), way(2)
+      real(dp) :: total(3), way(2), distance
       integer :: at(2), i, j, k
 
       total = 0
-      at = floor((place - crowd%lower)/kernel%support) + 1
+      at = square_of(body, kernel%support, place)
       do j = max(1, at(2) - 1), min(size(crowd%first, 2), at(2) + 1)
          do i = max(1, at(1) - 1), min(size(crowd%first, 1), at(1) + 1)
             k = crowd%first(i, j)
             do while (k > 0)
                way = [crowd%x(k), crowd%y(k)] - place
-               total = total + crowd%area(k)*kernel_gradient(kernel, norm2(way))*way
+               distance = norm2(way)
+               total = total + crowd%area(k)*[kernel_gradient(kernel, distance)*way, kernel_value(kernel, distance)]
                k = crowd%next(k)
             end do
          end do
