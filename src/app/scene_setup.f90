@@ -12,10 +12,11 @@ module scene_setup
    use linear_stability, only: margins_t, new_stability
    use model, only: model_t, terms_t
    use number_order, only: first_number
-   use open_sites, only: count_open, place_open
+   use open_sites, only: count_open
    use particles, only: allocate_particles, features_t, particles_t
    use resting_fluid, only: held_force
    use settings, only: is_wall, settings_t
+   use settled_sites, only: place_settled
    use solution, only: solution_t
    use solution_register, only: new_solution
    use solid_outlines, only: body_of, motion_of, solid_outline
@@ -211,7 +212,8 @@ contains
       before = 0
       do k = 1, size(scene%bodies)
          associate (body => scene%bodies(k), last => count_open(scene%bodies(k), model%dx, obstacles_of(scene)))
-            call place_open(body, model%dx, obstacles_of(scene), max(1, span(1) - before), min(last, span(2) - before), sites)
+            call place_settled(body, model%dx, model%kernel, set_up_solids(scene), obstacles_of(scene), max(1, span(1) - before), &
+                               min(last, span(2) - before), sites)
             do i = lbound(sites%x, 1), ubound(sites%x, 1)
                slot = slot + 1
                position = [sites%x(i), sites%y(i)]
