@@ -5,7 +5,7 @@ module solids
    use box, only: axis_of, box_t, inward, is_wall
    use kinds, only: dp
    use motions, only: motion_t, move_point, pose_t
-   use polygons, only: is_inside, nearest_edge
+   use polygons, only: edge_normal, is_inside, nearest_edge
    implicit none
    private
 
@@ -27,6 +27,7 @@ module solids
       type(pose_t) :: pose
       real(dp) :: pivot(2) = 0                 !! [m] at this time
       real(dp), allocatable :: outline(:, :)   !! (2, n) [m]
+      real(dp), allocatable :: normal(:, :)    !! (2, n) of edges, outwards
       logical, allocatable :: is_face(:)       !! (n) of edges: fluid can be beyond it
       real(dp) :: lower(2) = 0, upper(2) = 0   !! [m] around it
    contains
@@ -52,9 +53,14 @@ contains
 
       self%pose = solid%motion%at(box%time)
       self%pivot = solid%pivot + self%pose%shift
-      allocate (self%outline(2, size(solid%outline, 2)), self%is_face(size(solid%outline, 2)))
+      associate (n => size(solid%outline, 2))
+         allocate (self%outline(2, n), self%normal(2, n), self%is_face(n))
+      end associate
       do k = 1, size(solid%outline, 2)
          call move_point(self%pose, solid%pivot, solid%outline(:, k), self%outline(:, k), velocity, acceleration)
+      end do
+      do k = 1, size(self%outline, 2)
+         self%normal(:, k) = edge_normal(self%outline, k)
       end do
       self%is_face(:) = reachable_faces(self%outline, box)
       self%lower = minval(self%outline, 2)
