@@ -33,6 +33,9 @@ a_solid(still_slope ${scenes}/still_slope.nml "max_speed 5 3e-2 W_stat 0 1e-4" "
 # Four particles of wall between water of 1 and 0.5: 0.375, with the compression 0.3768. None of it across the floor.
 a_solid(still_wall ${scenes}/still_wall.nml "max_speed 2 3e-3 W_stat 0 1e-5" "wall.force_x 2 0.373 0.381 wall.force_y 0 -1e-9 1e-9"
    "energy_balance_error|0|1e-6;wall_crossings|0|0")
+# The same with three, between the floor and the open top: no fluid comes round an end.
+a_solid(thin_wall ${scenes}/still_wall.nml "max_speed 2 6e-3 W_stat 0 1e-5" "wall.force_x 2 0.373 0.381 wall.force_y 0 -1e-9 1e-9"
+   "energy_balance_error|0|1e-6;wall_crossings|0|0" "solid.upper=1.025,1.7" "body(2).lower=1.025,0")
 # A piston that starts at once: what it gives is the work of its force.
 a_solid(piston ${scenes}/piston.nml "W_stat 0 3e-4 W_pen 0 1e-3" "piston.force_y 0 -1e-9 1e-9 piston.force_x 3 -0.75 -0.5"
    "energy_balance_error|0|1e-3;W_solid|0.2|0.24")
