@@ -19,7 +19,7 @@ module scene_setup
    use solution, only: solution_t
    use solution_register, only: new_solution
    use solid_outlines, only: motion_of, solid_outline
-   use solids, only: new_obstacle, obstacle_t, solid_t
+   use solids, only: obstacle_t, obstacles_in, solid_t
    use sponges, only: sponge_t
    use square_lattice, only: lattice_crowd
    implicit none
@@ -134,12 +134,9 @@ contains
    ! The solids where they are at t = 0.
    pure function obstacles_of(scene) result(obstacles)
       type(settings_t), intent(in) :: scene
-      type(obstacle_t) :: obstacles(size(scene%solids))
-      type(solid_t) :: solids(size(scene%solids))
-      integer :: k
+      type(obstacle_t), allocatable :: obstacles(:)
 
-      solids = set_up_solids(scene)
-      obstacles = [(new_obstacle(solids(k), set_up_box(scene)), k=1, size(solids))]
+      obstacles = obstacles_in(set_up_solids(scene), set_up_box(scene))
    end function obstacles_of
 
    ! Of the input's words.

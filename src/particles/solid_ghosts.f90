@@ -3,7 +3,7 @@
 !! Source: ours (docs/equations.md, Solid bodies). Module `solid_cells` places them. They take slots behind the fluid's images, in
 !! strips of their own, and have images like the fluid's. They are in no list of the fluid's own sums.
 module solid_ghosts
-   use box, only: box_t
+   use box, only: box_t, way_back
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
    use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
@@ -50,7 +50,8 @@ module solid_ghosts
       real(dp), allocatable :: work(:)             !! [J/m] (n_slots) of the step, given to the fluid,
       real(dp), allocatable :: rubbed(:)           !! [J/m] (n_slots) of it by friction
       real(dp), allocatable :: x(:)                !! [m] (n_slots) when they were sorted
-      real(dp), allocatable :: place(:, :)         !! [m] (2, n_slots) now
+      real(dp), allocatable :: place(:, :)         !! [m] (2, n_slots) now, in the solid
+      real(dp), allocatable :: way(:, :)           !! [m] (2, n_slots) from there to where the ghost is in a periodic box
    contains
       procedure :: exist
       procedure :: signs
@@ -138,11 +139,11 @@ contains
       real(dp), intent(in) :: times(2)           !! that positions are predicted ahead by, and that lists last before and after then
       real(dp), intent(in) :: slack              !! that a block may have
       type(box_t) :: then
-      real(dp) :: x(self%n), y(self%n), reach(4)
+      real(dp) :: x(self%n), y(self%n), way(2, self%n), reach(4)
       integer :: k
 
       then = box%after(times(1))
-      call predict_places(self, solids, then, x, y)
+      call predict_places(self, solids, then, x, y, way)
       self%strips%width = widths(1)
       self%strips%bin_height = widths(2)
       self%strips%origin = box%at(1)
@@ -157,7 +158,7 @@ contains
       call reserve_slots(p, p%n_slots + group_slots)
       p%id(self%before + 1:p%n_slots) = self%strips%point_of(:self%n_slots)
       call make_room(self)
-      call seat_ghosts(self)
+      call seat_ghosts(self, way)
       call move_ghosts(self, solids, box, p%base)
       call measure_strips(self%strips, p%base)
       self%images%strips%width = widths(1)
@@ -191,12 +192,12 @@ contains
       if (any(now%reaches_through(box))) creep_of = solid%motion%largest_speed(solid%radius())
    end function creep_of
 
-   ! Where the ghosts are at the box's time.
-   subroutine predict_places(self, solids, box, x, y)
+   ! Where the ghosts are at the box's time, and by how much they are moved to be in it.
+   subroutine predict_places(self, solids, box, x, y, way)
       type(solid_ghosts_t), intent(in) :: self
       type(solid_t), intent(in) :: solids(:)
       type(box_t), intent(in) :: box
-      real(dp), intent(out) :: x(self%n), y(self%n)
+      real(dp), intent(out) :: x(self%n), y(self%n), way(2, self%n)
       type(pose_t) :: pose(size(solids))
       real(dp) :: place(2), velocity(2), acceleration(2)
       integer :: k
@@ -207,8 +208,9 @@ contains
       do k = 1, self%n
          associate (ghost => self%drawn(k))
             call move_point(pose(ghost%solid), solids(ghost%solid)%pivot, ghost%place, place, velocity, acceleration)
-            x(k) = place(1)
-            y(k) = place(2)
+            way(:, k) = way_back(box, place)
+            x(k) = place(1) + way(1, k)
+            y(k) = place(2) + way(2, k)
          end associate
       end do
    end subroutine predict_places
@@ -220,29 +222,32 @@ contains
       if (allocated(self%power)) then
          if (size(self%power) == self%n_slots) return
          deallocate (self%pull_x, self%pull_y, self%power, self%work, self%rubbed, self%x, self%place, self%force, &
-                     self%friction, self%area, self%solid_of)
+                     self%friction, self%area, self%way, self%solid_of)
       end if
       associate (n => self%n_slots)
          allocate (self%pull_x(n), self%pull_y(n), self%power(n), self%work(n), self%rubbed(n), self%x(n), self%place(2, n), &
-                   self%force(2, n), self%friction(4, n), self%area(n), source=0.0_dp)
+                   self%force(2, n), self%friction(4, n), self%area(n), self%way(2, n), source=0.0_dp)
          allocate (self%solid_of(n))
       end associate
    end subroutine make_room
 
    ! What resting ghosts keep until they are sorted anew.
-   subroutine seat_ghosts(self)
+   subroutine seat_ghosts(self, way)
       type(solid_ghosts_t), intent(inout) :: self
+      real(dp), intent(in) :: way(2, self%n)   ! of each ghost
       integer :: k
 
       do k = 1, self%n_slots
          self%solid_of(k) = 0
          self%place(:, k) = far_away
          self%area(k) = 0
+         self%way(:, k) = 0
          if (self%strips%point_of(k) == 0) cycle
          associate (cell => self%drawn(self%strips%point_of(k)))
             self%solid_of(k) = cell%solid
             self%place(:, k) = cell%place
             self%area(k) = cell%area
+            self%way(:, k) = way(:, self%strips%point_of(k))
          end associate
       end do
    end subroutine seat_ghosts
@@ -329,8 +334,8 @@ contains
       self%pull_y(k) = pull(2)
       self%place(:, k) = place
       associate (i => self%before + k)
-         state%x(i) = place(1)
-         state%y(i) = place(2)
+         state%x(i) = place(1) + self%way(1, k)
+         state%y(i) = place(2) + self%way(2, k)
          state%u(i) = velocity(1)
          state%v(i) = velocity(2)
          state%s(i) = 0

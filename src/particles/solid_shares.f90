@@ -43,7 +43,7 @@ contains
       type(shares_t), intent(inout) :: shares
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: x, y, from_x, from_y, to_x, to_y, face, normal_x, normal_y
-      real(dp) :: sign(2), place(2), last(2)
+      real(dp) :: sign(2), place(2), last(2), way(2)
       integer :: i0, j, k, m, number, only
       logical :: some, mirrored, is_other
 
@@ -58,6 +58,7 @@ contains
          number = 0
          only = 0
          last = 0
+         way = 0
          do k = 1, size(near)
             j = near(k)
             m = j - ghosts%before
@@ -65,9 +66,10 @@ contains
             if (mirrored) m = ghosts%images%source(m - ghosts%n_slots) - ghosts%before
             if (ghosts%face(m) == 0) cycle
             associate (solid => ghosts%obstacles(ghosts%solid_of(m)), normal => ghosts%obstacles(ghosts%solid_of(m))%normal)
-               is_other = number /= ghosts%solid_of(m)
+               is_other = number /= ghosts%solid_of(m) .or. any(abs(ghosts%way(:, m) - way) > 0)
                number = ghosts%solid_of(m)
-               if (is_other) only = only_face(solid, around(x, y, support))
+               way = ghosts%way(:, m)
+               if (is_other) only = only_face(solid, around(x - way(1), y - way(2), support))
                if (only > 0 .and. .not. mirrored) then
                   shares%mine(:, k) = merge(1, 0, only == ghosts%face(m))
                   shares%given(:, k) = merge(1, 0, dot_product(normal(:, only), normal(:, ghosts%face(m))) > turned_away)
@@ -126,11 +128,11 @@ contains
             normal_y(l) = ghosts%obstacles(number(l))%normal(2, ghosts%face(m0 + l))
          end do
          face = ghosts%face(m0 + 1:m0 + nl)
-         to_x = state%x(i0 + 1:i0 + nl)
-         to_y = state%y(i0 + 1:i0 + nl)
+         to_x = ghosts%place(1, m0 + 1:m0 + nl)
+         to_y = ghosts%place(2, m0 + 1:m0 + nl)
          do k = 1, size(near)
-            from_x = to_x + (state%x(near(k)) - to_x)   ! as rounded for the fluid
-            from_y = to_y + (state%y(near(k)) - to_y)
+            from_x = to_x + (state%x(near(k)) - state%x(i0 + 1:i0 + nl))
+            from_y = to_y + (state%y(near(k)) - state%y(i0 + 1:i0 + nl))
             do l = 1, nl
                if (.not. leads(l)) cycle
                call find_crossed(ghosts%obstacles(number(l)), support, from_x, from_y, to_x, to_y, of_solid)

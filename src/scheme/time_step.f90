@@ -19,7 +19,7 @@ module time_step
    use particles, only: particles_t, state_t, swap_states
    use runge_kutta, only: stage_state, update_block, watch_changes
    use solid_terms, only: add_solids, meet_solids, rub_solids, take_solid_work
-   use solids, only: new_obstacle
+   use solids, only: obstacles_in
    use search_margins, only: overreach, plan_t, planned, watch_margins, widen_margins
    use step_outcome, only: add_up, collect, look_ahead, outcome_t
    use step_state, only: step_t
@@ -286,13 +286,13 @@ contains
       logical, intent(inout) :: notes(:)
       real(dp) :: changes(near%n_blocks, most_stages), jumps(near%n_blocks)
       type(moment_t) :: moment
-      integer :: k, stage
+      integer :: stage
 
       do stage = 1, model%integrator%stages
          moment = moment_t(stage, run%dt, model%box_at(run%time + model%integrator%time_of(stage)*run%dt), &
                            model%box_at(run%time + run%dt))
          if (stage == model%integrator%stages .and. model%has_solids()) &
-            moment%obstacles = [(new_obstacle(model%solids(k), moment%last_box), k=1, size(model%solids))]
+            moment%obstacles = obstacles_in(model%solids, moment%last_box)
          if (stage == 1) then
             call timers%start(phase_diffusion)
             call first_stage(model, p, near, moment, blocks)

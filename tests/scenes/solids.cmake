@@ -81,7 +81,28 @@ a_solid(risen_block ${scenes}/risen_block.nml "W_pen 0 0.01" "block.force_y 6 0.
 add_test(NAME refuses_solids_that_leave_no_fluid COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--set;solid.lower=-1,-1;--set;solid.upper=5,1.4;--output;no_fluid;${scenes}/still_block.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=no fluid is left: the solids cover each &body" -P ${run_and_expect})
-add_test(NAME refuses_solids_through_periodic_sides COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--output;through;${scenes}/still_block.nml"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=moves through the periodic right side of &domain at t = 1.6" -P ${run_and_expect})
-set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_through_periodic_sides PROPERTIES TIMEOUT 30)
+add_test(NAME refuses_solids_that_meet_themselves COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--set;solid.upper=2.65,0.7;--output;through;${scenes}/still_block.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=and is 1.85 = 37 dx long: leave 4 dx between its ends" -P ${run_and_expect})
+set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_that_meet_themselves PROPERTIES TIMEOUT 30)
+
+# Across periodic sides a block is lifted as anywhere else,
+a_solid(block_across ${scenes}/still_block.nml "max_speed 0 1.5e-3 W_solid 0 0 W_stat 0 1e-5"
+   "block.force_y 1 0.1600 0.1616 block.force_x 0 -1e-9 1e-9" "energy_balance_error|0|1e-6;wall_crossings|0|0"
+   domain.left=periodic domain.right=periodic "solid.lower=1.8,0.3" "solid.upper=2.2,0.7" time.end_time=3)
+# and a thin one that is carried through them meets what it would meet elsewhere.
+foreach(case IN ITEMS here through)
+   set(lower 0.8,0.3)
+   set(upper 1.05,0.7)
+   if(case STREQUAL through)
+      set(lower 1.6,0.3)
+      set(upper 1.85,0.7)
+   endif()
+   add_test(NAME solid_${case}_runs COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=${with_one};--quiet;--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--set;solid.lower=${lower};--set;solid.upper=${upper};--set;time.end_time=1.5;--output;solid_${case};${scenes}/still_block.nml"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -DCREATED=solid_${case} -P ${run_and_expect})
+   set_tests_properties(solid_${case}_runs PROPERTIES FIXTURES_SETUP solid_ways TIMEOUT 60)
+endforeach()
+add_test(NAME solid_finds_the_same_beyond_a_side COMMAND ${DYNSPH_AWK} -v tolerance=1e-9 -v "names=time E_K E_P E_C W_solid W_pen max_speed dt"
+   -f ${scenes}/check_same_columns.awk ${here}/solid_here/energy.dat ${here}/solid_through/energy.dat)
+set_tests_properties(solid_finds_the_same_beyond_a_side PROPERTIES FIXTURES_REQUIRED solid_ways TIMEOUT 30)
