@@ -1,7 +1,7 @@
 !> A watch on moving solids: a warning where one leaves too narrow a gap, the end of the run where two collide or a free one leaves
 !! the box.
 module contact_watch
-   use box, only: open_side
+   use box, only: is_wall
    use errors, only: exit_numerics, failure
    use kinds, only: dp
    use model, only: model_t
@@ -44,10 +44,10 @@ contains
          call contacts%find(obstacles, moves, box, wide_enough*model%kernel%support, found)
          do k = 1, size(moves)
             if (.not. model%solids(k)%body%is_free()) cycle
-            if (any(box%kind /= open_side .and. [obstacles(k)%lower(1) < box%at(1), obstacles(k)%upper(1) > box%at(2), &
+            if (any(is_wall(box%kind) .and. [obstacles(k)%lower(1) < box%at(1), obstacles(k)%upper(1) > box%at(2), &
                                                  obstacles(k)%lower(2) < box%at(3), obstacles(k)%upper(2) > box%at(4)])) &
-               call problem%raise(exit_numerics, '&solid '//quoted(scene%solids(k)%name)//' reaches a side of &domain at t = ' &
-                                  //short(run%time)//', and nothing holds a free body there: move the side, or end the run before')
+               call problem%raise(exit_numerics, '&solid '//quoted(scene%solids(k)%name)//' reaches a wall at t = ' &
+                                  //short(run%time)//', and nothing holds a free body there: move the wall, or end the run before')
          end do
       end associate
       do i = 1, size(found)

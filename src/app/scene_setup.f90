@@ -20,7 +20,7 @@ module scene_setup
    use solution, only: solution_t
    use solution_register, only: new_solution
    use solid_outlines, only: body_of, motion_of, solid_outline
-   use solids, only: new_obstacle, obstacle_t, solid_t
+   use solids, only: obstacle_t, obstacles_in, solid_t
    use sponges, only: sponge_t
    use square_lattice, only: lattice_crowd
    implicit none
@@ -136,12 +136,11 @@ contains
    ! The solids where they are at t = 0.
    pure function obstacles_of(scene) result(obstacles)
       type(settings_t), intent(in) :: scene
-      type(obstacle_t) :: obstacles(size(scene%solids))
+      type(obstacle_t), allocatable :: obstacles(:)
       type(solid_t) :: solids(size(scene%solids))
-      integer :: k
 
       solids = set_up_solids(scene)
-      obstacles = [(new_obstacle(solids(k), solids(k)%motion%at(0.0_dp), set_up_box(scene)), k=1, size(solids))]
+      obstacles = obstacles_in(solids, solids%motion%at(0.0_dp), set_up_box(scene))
    end function obstacles_of
 
    ! Of the input's words.

@@ -16,7 +16,7 @@ module budget
    use motions, only: pose_t
    use particles, only: particles_t
    use rest_state, only: rest_energies, rest_energies_around
-   use solids, only: new_obstacle
+   use solids, only: obstacles_in
    use step_state, only: step_t
    implicit none
    private
@@ -139,7 +139,6 @@ contains
       real(dp), intent(in) :: width   !! of the tank
       real(dp), parameter :: least_share = 1.0e-3_dp
       real(dp) :: mass, depth(1)   ! of the lowest particle, below y = 0
-      integer :: k
 
       self%has = model%terms()
       if (self%has%free_bodies) self%e_body_at_start = energy_of_bodies(model, model%poses_at(0.0_dp))
@@ -154,8 +153,7 @@ contains
       if (model%gravity > 0) self%normaliser = self%normaliser + mass*model%gravity*depth(1)
       if (self%has_rest) then
          if (model%has_solids()) then
-            call rest_energies_around([(new_obstacle(model%solids(k), model%solids(k)%motion%at(0.0_dp), model%box), &
-                                        k=1, size(model%solids))], &
+            call rest_energies_around(obstacles_in(model%solids, model%poses_at(0.0_dp), model%box), &
                                       model%box%at([left_wall, right_wall, bottom_wall]), mass, &
                                       [model%rho0, model%c0, model%gravity], self%rest%potential, self%rest%elastic)
          else

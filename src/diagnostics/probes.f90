@@ -5,7 +5,7 @@
 !! and ghosts of solids.
 module probes
    use communication, only: largest_of_all
-   use box, only: bottom_wall, is_wall, left_wall, right_wall, top_wall
+   use box, only: bottom_wall, is_wall, left_wall, right_wall, top_wall, way_back
    use kinds, only: dp
    use model, only: model_t
    use motions, only: move_point
@@ -132,6 +132,7 @@ contains
       drawn = place
       associate (solid => model%solids(sensor%solid))
          call move_point(near%ghosts%poses(sensor%solid), solid%pivot, drawn, place, velocity, acceleration)
+         place = place + way_back(model%box, place)
       end associate
    end function place_at
 

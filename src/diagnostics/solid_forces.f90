@@ -4,7 +4,7 @@
 !! beside that wall have a force across it that belongs to no face: that component, and the moment, are then of the pressure on
 !! the faces.
 module solid_forces
-   use box, only: axis_of, box_t, is_wall
+   use box, only: axis_of, box_t, is_wall, way_back
    use exact_sum, only: add_over_processes, exact_sum_t
    use gradient_fields, only: renew_coefficients
    use kinds, only: dp
@@ -87,11 +87,12 @@ contains
          n = max(1, ceiling(per_spacing*norm2(along)/model%dx))
          do k = 1, n
             place = obstacle%outline(:, edge) + along*((k - 0.5_dp)/n)
+            arm = place - obstacle%pivot
+            place = place + way_back(box, place)
             if (any(walls_crossed(box, place, place))) cycle
             if (.not. near%computes(place(1))) cycle
             call sum_with_solids(model, p, near, place(1), place(2), volume, pressure)
             force = -pressure/max(volume, at_surface)*norm2(along)/n*edge_normal(obstacle%outline, edge)
-            arm = place - obstacle%pivot
             call sums(1)%add(force(1))
             call sums(2)%add(force(2))
             call sums(3)%add(arm(1)*force(2) - arm(2)*force(1))
@@ -121,7 +122,7 @@ contains
             if (solid == 0) cycle
             if (.not. near%computes(ghosts%x(k))) cycle
             i = ghosts%before + k
-            arm = [p%base%x(i), p%base%y(i)] - pivot(:, solid)
+            arm = [p%base%x(i), p%base%y(i)] - ghosts%way(:, k) - pivot(:, solid)
             parts = [ghosts%force(:, k), ghosts%friction(1:2, k), arm(1)*ghosts%force(2, k) - arm(2)*ghosts%force(1, k), &
                      arm(1)*ghosts%friction(2, k) - arm(2)*ghosts%friction(1, k), &
                      ghosts%power(k) - ghosts%friction(3, k)*p%base%u(i) - ghosts%friction(4, k)*p%base%v(i)]

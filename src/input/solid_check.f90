@@ -11,7 +11,7 @@ module solid_check
    use settings, only: body_settings
    use rigid_bodies, only: rigid_body_t
    use solid_outlines, only: body_of, starting_outline
-   use solid_room, only: check_gaps_between, check_room, in_words
+   use solid_room, only: check_gaps_between, check_room, in_words, ways_across
    use text, only: quoted, short, to_text
    implicit none
    private
@@ -205,14 +205,16 @@ contains
    subroutine check_fluid(draft, number)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
-      real(dp), allocatable :: outline(:, :)
-      integer :: i
+      real(dp), allocatable :: outline(:, :), ways(:, :)
+      integer :: i, k
 
       associate (scene => draft%scene, solid => draft%scene%solids(number))
          if (solid%fluid /= 'refuse') return
          outline = starting_outline(scene, solid)
+         allocate (ways, source=ways_across(scene))
          do i = 1, size(scene%bodies)
-            if (overlaps(outline, body_outline(scene%bodies(i), scene%margin()))) call draft%mistake('solid', number, 'fluid', &
+            if (any([(overlaps(outline + spread(ways(:, k), 2, size(outline, 2)), body_outline(scene%bodies(i), scene%margin())), &
+                      k=1, size(ways, 2))])) call draft%mistake('solid', number, 'fluid', &
                '&solid '//quoted(solid%name)//' overlaps &body number '//to_text(i)//", and refuses it: move one of them, or set " &
                //"fluid = 'cut'")
          end do

@@ -46,7 +46,7 @@ module motions
 contains
 
    !> Pose at a time, with derivatives of exactly that motion; of a free body, that at t = 0.
-   pure type(pose_t) function pose_at(self, time) result(pose)
+   elemental type(pose_t) function pose_at(self, time) result(pose)
       class(motion_t), intent(in) :: self
       real(dp), intent(in) :: time   !! [s]
       real(dp) :: value(3), slope(3), curvature(3), wave(0:2)

@@ -8,7 +8,7 @@ module polygons
    private
 
    public :: polygon_area, polygon_centroid, polygon_second_moment, clip_polygon, regular_polygon, turned
-   public :: is_inside, nearest_edge, first_crossed, edge_normal, edge_distance, find_crossing, sharpest_corner, thinnest, narrowest
+   public :: is_inside, nearest_edge, edge_normal, edge_distance, find_crossing, sharpest_corner, thinnest, narrowest
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    integer, parameter :: most_samples = 50   ! of an edge, so that a long one does not take most of the time
@@ -159,28 +159,6 @@ contains
          most_facing = facing
       end do
    end subroutine nearest_edge
-
-   !> The edge that a straight way goes through first; 0 if it goes through none that counts.
-   pure integer function first_crossed(vertices, counts, from, to) result(edge)
-      real(dp), intent(in) :: vertices(:, :)   !! (2, n) [m]
-      logical, intent(in) :: counts(:)         !! (n)
-      real(dp), intent(in) :: from(2), to(2)   !! [m]
-      real(dp) :: first, share
-      integer :: k
-
-      edge = 0
-      first = huge(first)
-      do k = 1, size(vertices, 2)
-         associate (a => vertices(:, k), b => vertices(:, mod(k, size(vertices, 2)) + 1))
-            if (.not. counts(k)) cycle
-            if ((side(a, b, from) > 0) .eqv. (side(a, b, to) > 0)) cycle
-            if ((side(from, to, a) > 0) .eqv. (side(from, to, b) > 0)) cycle
-            share = side(a, b, from)/(side(a, b, from) - side(a, b, to))
-            if (share < first) edge = k
-            first = min(first, share)
-         end associate
-      end do
-   end function first_crossed
 
    !> Outward normal of an edge.
    pure function edge_normal(vertices, edge) result(normal)

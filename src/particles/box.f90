@@ -7,7 +7,7 @@ module box
    implicit none
    private
 
-   public :: box_t, inertia_t, find_bounds, is_wall, reflect, wrap
+   public :: box_t, inertia_t, find_bounds, is_wall, reflect, way_back, wrap
 
    integer, parameter, public :: left_wall = 1, right_wall = 2, bottom_wall = 3, top_wall = 4
    integer, parameter, public :: axis_of(4) = [1, 1, 2, 2]      !! that a side is across
@@ -121,6 +121,22 @@ contains
          end associate
       end do
    end subroutine wrap
+
+   !> By how much a place beyond a periodic side is to be moved to be in the box, in whole periods.
+   pure function way_back(box, place) result(way)
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: place(2)
+      real(dp) :: way(2)
+      integer :: axis
+
+      way = 0
+      do axis = 1, 2
+         if (.not. box%is_periodic(axis)) cycle
+         associate (lower => box%at(2*axis - 1), period => box%at(2*axis) - box%at(2*axis - 1))
+            way(axis) = -period*floor((place(axis) - lower)/period)
+         end associate
+      end do
+   end function way_back
 
    !> Puts a particle that crossed a wall back inside, its normal velocity, as the wall sees it, pointing inwards.
    !!

@@ -12,11 +12,11 @@ module solid_cells
    implicit none
    private
 
-   public :: cell_t, find_cells, move_cell, opposite
+   public :: cell_t, find_cells, move_cell
 
    integer, parameter :: most_corners = 24          ! of a cell that walls cut at each time anew
    real(dp), parameter :: least_area = 1.0e-6_dp    ! in dx**2; what is less is left out
-   real(dp), parameter :: turned_away = -0.5_dp     ! product of the normals of faces that share no ghost
+   real(dp), parameter, public :: turned_away = -0.5_dp   !! product of the normals of faces that share no ghost
 
    !> As drawn, before the solid's motion.
    type :: cell_t
@@ -139,10 +139,10 @@ contains
       end do
    end subroutine add_cell
 
-   !> Whether two faces look in directions so different that fluid before one has no part in the ghosts of the other.
+   ! Whether two faces look in directions so different that fluid before one has no part in the ghosts of the other.
    pure logical function opposite(outline, one, other)
-      real(dp), intent(in) :: outline(:, :)    !! (2, n) [m]
-      integer, intent(in) :: one, other        !! edges
+      real(dp), intent(in) :: outline(:, :)    ! (2, n) [m]
+      integer, intent(in) :: one, other        ! edges
 
       opposite = dot_product(edge_normal(outline, one), edge_normal(outline, other)) <= turned_away
    end function opposite

@@ -3,7 +3,7 @@
 !! Source: ours (docs/equations.md, Solid bodies). Module `solid_cells` places them. They take slots behind the fluid's images, in
 !! strips of their own, and have images like the fluid's. They are in no list of the fluid's own sums.
 module solid_ghosts
-   use box, only: box_t
+   use box, only: box_t, way_back
    use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
    use free_ghosts, only: free_ghosts_t, new_free_ghosts
    use image_laws, only: as_position, beyond, law_t
@@ -12,16 +12,15 @@ module solid_ghosts
    use lanes, only: nl
    use motions, only: move_point, pose_t, turn
    use particles, only: far_away, particles_t, reserve_slots, state_t
-   use polygons, only: first_crossed, nearest_edge
    use rigid_bodies, only: coasting
-   use solid_cells, only: cell_t, find_cells, move_cell, opposite
+   use solid_cells, only: cell_t, find_cells, move_cell
    use solids, only: new_obstacle, obstacle_t, solid_t
    use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
    implicit none
    private
 
-   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids, find_share
+   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids
 
    !> All ghosts, and what is near them.
    type :: solid_ghosts_t
@@ -43,6 +42,9 @@ module solid_ghosts
       type(candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
       type(candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
       ! By slot, counted from their first:
+      integer, allocatable :: solid_of(:)          !! (n_slots) the ghost's solid; 0 for a dummy
+      integer, allocatable :: face(:)              !! (n_slots and images) the face that it is for; 0: for all
+      real(dp), allocatable :: area(:)             !! [m2] (n_slots) as drawn
       real(dp), allocatable :: pull_x(:), pull_y(:)   !! [m/s2] (n_slots) (A.n) n, A the solid's acceleration there
       real(dp), allocatable :: exchange(:)         !! (n_slots and images) q_b/S_b without constant factors
       real(dp), allocatable :: stick(:)            !! (n_slots and images) 1 where the fluid sticks to the solid, else 0
@@ -52,10 +54,10 @@ module solid_ghosts
       real(dp), allocatable :: work(:)             !! [J/m] (n_slots) of the step, given to the fluid,
       real(dp), allocatable :: rubbed(:)           !! [J/m] (n_slots) of it by friction
       real(dp), allocatable :: x(:)                !! [m] (n_slots) when they were sorted
-      real(dp), allocatable :: place(:, :)         !! [m] (2, n_slots) now
+      real(dp), allocatable :: place(:, :)         !! [m] (2, n_slots) now, in the solid
+      real(dp), allocatable :: way(:, :)           !! [m] (2, n_slots) from there to where the ghost is in a periodic box
    contains
       procedure :: exist
-      procedure :: solid_of
       procedure :: signs
       procedure :: passes
       procedure :: bytes => ghosts_bytes
@@ -69,15 +71,6 @@ contains
 
       exist = self%n > 0
    end function exist
-
-   !> The solid of a slot, counted from the first ghost's; 0 for a dummy.
-   pure integer function solid_of(self, k)
-      class(solid_ghosts_t), intent(in) :: self
-      integer, intent(in) :: k
-
-      solid_of = self%strips%point_of(k)
-      if (solid_of > 0) solid_of = self%drawn(solid_of)%solid
-   end function solid_of
 
    !> -1 for axes along which the ghost in a slot is mirrored, else 1.
    pure function signs(self, box, slot)
@@ -152,11 +145,11 @@ contains
       real(dp), intent(in) :: times(2)           !! that positions are predicted ahead by, and that lists last before and after then
       real(dp), intent(in) :: slack              !! that a block may have
       type(box_t) :: then
-      real(dp) :: x(self%n), y(self%n), reach(4)
+      real(dp) :: x(self%n), y(self%n), way(2, self%n), reach(4)
       integer :: k
 
       then = box%after(times(1))
-      call predict_places(self, solids, poses, times(1), then, x, y)
+      call predict_places(self, solids, poses, times(1), then, x, y, way)
       self%strips%width = widths(1)
       self%strips%bin_height = widths(2)
       self%strips%origin = box%at(1)
@@ -171,6 +164,7 @@ contains
       call reserve_slots(p, p%n_slots + group_slots)
       p%id(self%before + 1:p%n_slots) = self%strips%point_of(:self%n_slots)
       call make_room(self)
+      call seat_ghosts(self, way)
       if (allocated(self%free)) call self%free%make_room(self%n_slots)
       if (allocated(self%free)) call self%free%expect(solids, poses)
       call move_ghosts(self, solids, poses, box, p%base)
@@ -184,6 +178,7 @@ contains
       call measure_strips(self%images%strips, p%base)
       call resize(self%exchange, self%n_slots + self%images%n)
       call resize(self%stick, self%n_slots + self%images%n)
+      call set_faces(self)
       do k = 1, self%n_slots
          self%stick(k) = 0
          self%x(k) = far_away
@@ -206,14 +201,14 @@ contains
       if (any(now%reaches_through(box))) creep_of = solid%motion%largest_speed(solid%radius())
    end function creep_of
 
-   ! Where the ghosts are at the box's time, some time after the poses.
-   subroutine predict_places(self, solids, poses, time, box, x, y)
+   ! Where the ghosts are at the box's time, some time after the poses, and by how much they are moved to be in it.
+   subroutine predict_places(self, solids, poses, time, box, x, y, way)
       type(solid_ghosts_t), intent(in) :: self
       type(solid_t), intent(in) :: solids(:)
       type(pose_t), intent(in) :: poses(:)
       real(dp), intent(in) :: time
       type(box_t), intent(in) :: box
-      real(dp), intent(out) :: x(self%n), y(self%n)
+      real(dp), intent(out) :: x(self%n), y(self%n), way(2, self%n)
       type(pose_t) :: pose(size(solids))
       real(dp) :: place(2), velocity(2), acceleration(2)
       integer :: k
@@ -225,8 +220,9 @@ contains
       do k = 1, self%n
          associate (ghost => self%drawn(k))
             call move_point(pose(ghost%solid), solids(ghost%solid)%pivot, ghost%place, place, velocity, acceleration)
-            x(k) = place(1)
-            y(k) = place(2)
+            way(:, k) = way_back(box, place)
+            x(k) = place(1) + way(1, k)
+            y(k) = place(2) + way(2, k)
          end associate
       end do
    end subroutine predict_places
@@ -238,13 +234,50 @@ contains
       if (allocated(self%power)) then
          if (size(self%power) == self%n_slots) return
          deallocate (self%pull_x, self%pull_y, self%power, self%work, self%rubbed, self%x, self%place, self%force, &
-                     self%friction)
+                     self%friction, self%area, self%way, self%solid_of)
       end if
       associate (n => self%n_slots)
          allocate (self%pull_x(n), self%pull_y(n), self%power(n), self%work(n), self%rubbed(n), self%x(n), self%place(2, n), &
-                   self%force(2, n), self%friction(4, n), source=0.0_dp)
+                   self%force(2, n), self%friction(4, n), self%area(n), self%way(2, n), source=0.0_dp)
+         allocate (self%solid_of(n))
       end associate
    end subroutine make_room
+
+   ! What resting ghosts keep until they are sorted anew.
+   subroutine seat_ghosts(self, way)
+      type(solid_ghosts_t), intent(inout) :: self
+      real(dp), intent(in) :: way(2, self%n)   ! of each ghost
+      integer :: k
+
+      do k = 1, self%n_slots
+         self%solid_of(k) = 0
+         self%place(:, k) = far_away
+         self%area(k) = 0
+         self%way(:, k) = 0
+         if (self%strips%point_of(k) == 0) cycle
+         associate (cell => self%drawn(self%strips%point_of(k)))
+            self%solid_of(k) = cell%solid
+            self%place(:, k) = cell%place
+            self%area(k) = cell%area
+            self%way(:, k) = way(:, self%strips%point_of(k))
+         end associate
+      end do
+   end subroutine seat_ghosts
+
+   ! The faces that ghosts and their images are for.
+   subroutine set_faces(self)
+      type(solid_ghosts_t), intent(inout) :: self
+      integer :: k
+
+      self%face = [(0, k=1, self%n_slots + self%images%n)]
+      if (.not. self%shared) return
+      do k = 1, self%n_slots
+         if (self%solid_of(k) > 0) self%face(k) = self%drawn(self%strips%point_of(k))%edge
+      end do
+      do k = 1, self%images%n
+         self%face(self%n_slots + k) = self%face(self%images%source(k) - self%before)
+      end do
+   end subroutine set_faces
 
    subroutine resize(array, n)
       real(dp), allocatable, intent(inout) :: array(:)
@@ -293,69 +326,34 @@ contains
       integer, intent(in) :: k
       type(state_t), intent(inout) :: state
       real(dp) :: place(2), velocity(2), acceleration(2), pull(2), area
+      integer :: number
 
-      place = far_away
+      number = self%solid_of(k)
+      place = self%place(:, k)
       velocity = 0
       pull = 0
-      area = 0
-      if (self%strips%point_of(k) > 0) then
-         associate (cell => self%drawn(self%strips%point_of(k)))
-            place = cell%place
-            area = cell%area
-            if (moves(cell%solid)) then
-               call move_cell(cell, solids(cell%solid)%pivot, self%poses(cell%solid), box, place, velocity, acceleration, area)
-               pull = turn(self%poses(cell%solid)%angle, cell%normal)
+      area = self%area(k)
+      if (number > 0) then
+         if (moves(number)) then
+            associate (cell => self%drawn(self%strips%point_of(k)))
+               call move_cell(cell, solids(number)%pivot, self%poses(number), box, place, velocity, acceleration, area)
+               pull = turn(self%poses(number)%angle, cell%normal)
                pull = dot_product(acceleration, pull)*pull
-            end if
-         end associate
+            end associate
+         end if
       end if
       self%pull_x(k) = pull(1)
       self%pull_y(k) = pull(2)
       self%place(:, k) = place
       associate (i => self%before + k)
-         state%x(i) = place(1)
-         state%y(i) = place(2)
+         state%x(i) = place(1) + self%way(1, k)
+         state%y(i) = place(2) + self%way(2, k)
          state%u(i) = velocity(1)
          state%v(i) = velocity(2)
          state%s(i) = 0
          state%volume(i) = area
       end associate
    end subroutine move_ghost
-
-   !> Which part a particle has in a ghost that is one of several of its cell: they act on each other if the way to the ghost first
-   !! leads through its face; the ghost has its pressure also of particles that come through faces that do not look the other way.
-   pure subroutine find_share(self, slot, place, ghost, sign, mine, shared)
-      type(solid_ghosts_t), intent(in) :: self
-      integer, intent(in) :: slot              !! of the ghost, or of its image; counted from the first ghost's
-      real(dp), intent(in) :: place(2)         !! of the particle
-      real(dp), intent(in) :: ghost(2)         !! of the ghost, or its image
-      real(dp), intent(in) :: sign(2)          !! -1 for axes along which it is mirrored
-      real(dp), intent(out) :: mine, shared    !! 1 or 0
-      real(dp) :: from(2), source(2), foot(2), normal(2), distance
-      integer :: k, edge
-
-      mine = 1
-      shared = 1
-      k = slot
-      if (k > self%n_slots) k = self%images%source(k - self%n_slots) - self%before
-      if (self%strips%point_of(k) == 0) return
-      associate (cell => self%drawn(self%strips%point_of(k)))
-         if (cell%edge == 0) return
-         associate (solid => self%obstacles(cell%solid))
-            source = self%place(:, k)
-            from = source + sign*(place - ghost)
-            edge = first_crossed(solid%outline, solid%is_face, from, source)
-            if (edge == 0) call nearest_edge(solid%outline, solid%is_face, from, edge, distance, foot, normal)
-            if (edge == 0) then
-               mine = 0   ! all of the solid is behind walls
-               shared = 0
-               return
-            end if
-            mine = merge(1.0_dp, 0.0_dp, edge == cell%edge)
-            shared = merge(1.0_dp, 0.0_dp, .not. opposite(solid%outline, edge, cell%edge))
-         end associate
-      end associate
-   end subroutine find_share
 
    !> Gives the images of ghosts what they have of these.
    subroutine mirror_ghosts(self, box, state)

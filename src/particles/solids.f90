@@ -5,12 +5,12 @@ module solids
    use box, only: axis_of, box_t, inward, is_wall
    use kinds, only: dp
    use motions, only: motion_t, move_point, pose_t
-   use polygons, only: is_inside, nearest_edge
+   use polygons, only: edge_normal, is_inside, nearest_edge
    use rigid_bodies, only: rigid_body_t
    implicit none
    private
 
-   public :: solid_t, obstacle_t, new_obstacle, walls_crossed, cover, push_out
+   public :: solid_t, obstacle_t, new_obstacle, obstacles_in, walls_crossed, cover, push_out
 
    !> A solid as it is drawn: before its motion.
    type :: solid_t
@@ -26,9 +26,11 @@ module solids
 
    !> A solid at one time.
    type :: obstacle_t
+      integer :: number = 0                    !! of the solid
       type(pose_t) :: pose
       real(dp) :: pivot(2) = 0                 !! [m] at this time
       real(dp), allocatable :: outline(:, :)   !! (2, n) [m]
+      real(dp), allocatable :: normal(:, :)    !! (2, n) of edges, outwards
       logical, allocatable :: is_face(:)       !! (n) of edges: fluid can be beyond it
       real(dp) :: lower(2) = 0, upper(2) = 0   !! [m] around it
    contains
@@ -55,14 +57,63 @@ contains
 
       self%pose = pose
       self%pivot = solid%pivot + self%pose%shift
-      allocate (self%outline(2, size(solid%outline, 2)), self%is_face(size(solid%outline, 2)))
+      associate (n => size(solid%outline, 2))
+         allocate (self%outline(2, n), self%normal(2, n), self%is_face(n))
+      end associate
       do k = 1, size(solid%outline, 2)
          call move_point(self%pose, solid%pivot, solid%outline(:, k), self%outline(:, k), velocity, acceleration)
+      end do
+      do k = 1, size(self%outline, 2)
+         self%normal(:, k) = edge_normal(self%outline, k)
       end do
       self%is_face(:) = reachable_faces(self%outline, box)
       self%lower = minval(self%outline, 2)
       self%upper = maxval(self%outline, 2)
    end function new_obstacle
+
+   !> All solids in their poses; where sides are periodic, as often as they reach into the box, or a little beside it.
+   pure function obstacles_in(solids, poses, box) result(obstacles)
+      type(solid_t), intent(in) :: solids(:)
+      type(pose_t), intent(in) :: poses(:)     !! (solids)
+      type(box_t), intent(in) :: box
+      type(obstacle_t), allocatable :: obstacles(:)
+      real(dp), parameter :: beside = 0.1_dp   ! of the box: more than a particle has left it by in a step
+      type(obstacle_t) :: one
+      real(dp) :: lower(2), upper(2), period(2)
+      integer :: first(2), last(2), i, j, k
+
+      allocate (obstacles(0))
+      period = box%at([2, 4]) - box%at([1, 3])
+      lower = box%at([1, 3]) - beside*period
+      upper = box%at([2, 4]) + beside*period
+      do k = 1, size(solids)
+         one = new_obstacle(solids(k), poses(k), box)
+         one%number = k
+         first = 0
+         last = 0
+         where (box%is_periodic([1, 2]))
+            first = ceiling((lower - one%upper)/period)
+            last = floor((upper - one%lower)/period)
+         end where
+         do j = first(2), last(2)
+            do i = first(1), last(1)
+               obstacles = [obstacles, moved_by(one, [i*period(1), j*period(2)])]
+            end do
+         end do
+      end do
+   end function obstacles_in
+
+   ! The same elsewhere. A way of 0 changes no bit.
+   pure type(obstacle_t) function moved_by(obstacle, way) result(moved)
+      type(obstacle_t), intent(in) :: obstacle
+      real(dp), intent(in) :: way(2)
+
+      moved = obstacle
+      moved%pivot = obstacle%pivot + way
+      moved%outline = obstacle%outline + spread(way, 2, size(obstacle%outline, 2))
+      moved%lower = obstacle%lower + way
+      moved%upper = obstacle%upper + way
+   end function moved_by
 
    ! Edges that are not on, or beyond, a wall of the box.
    pure function reachable_faces(outline, box) result(is_face)

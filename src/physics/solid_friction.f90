@@ -10,7 +10,8 @@ module solid_friction
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: particles_t, state_t
-   use solid_ghosts, only: find_share, solid_ghosts_t
+   use solid_ghosts, only: solid_ghosts_t
+   use solid_shares, only: share_of_fluid, share_of_ghosts, shares_t
    implicit none
    private
 
@@ -27,13 +28,15 @@ contains
       type(box_t), intent(in) :: box            !! at any time
       real(dp), intent(out) :: x(block_slots)   !! [m3/s] sum_b pi_ib x_bi t**3 V_b
       real(dp), intent(out) :: y(block_slots)   !! [m3/s]
-      real(dp) :: way(2), g, f, unused, mine
+      type(shares_t) :: shares
+      real(dp) :: way(2), g, f, unused
       integer :: c, i, j, k, l
 
       x = 0
       y = 0
       associate (block => ghosts%near(b))
          do c = 1, block%n_clusters
+            call share_of_fluid(ghosts, block, c, state, box, kernel%support, shares)
             do k = block%first(c), block%first(c + 1) - 1
                j = block%slot(k)
                if (.not. ghosts%stick(j - ghosts%before) > 0) cycle
@@ -42,11 +45,7 @@ contains
                   way = [state%x(j) - state%x(i), state%y(j) - state%y(i)]
                   call pair_with_value(way(1), way(2), kernel%inverse_support, g, unused)
                   if (.not. g > 0) cycle
-                  if (ghosts%shared) then
-                     call find_share(ghosts, j - ghosts%before, [state%x(i), state%y(i)], [state%x(j), state%y(j)], &
-                                     ghosts%signs(box, j), mine, unused)
-                     g = mine*g
-                  end if
+                  g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g
                   f = 2*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2))/squared_distance(way(1), way(2))
                   f = f*g*state%volume(j)
                   x(l) = x(l) + f*way(1)
@@ -67,7 +66,8 @@ contains
       type(box_t), intent(in) :: box
       real(dp), intent(in) :: alpha              !! [1] that acts everywhere
       real(dp), intent(out) :: sums(4, block_slots)   !! [m3/s] sum_f alpha_f pi_fb r t**3 V_f, of images mirrored; as it is
-      real(dp) :: way(2), g, f, unused, mine, alpha_j, sign(2), pass(2)
+      type(shares_t) :: shares
+      real(dp) :: way(2), g, f, unused, alpha_j, sign(2), pass(2)
       type(law_t) :: law(2)
       integer :: c, i, j, k, kind, l
 
@@ -75,6 +75,7 @@ contains
       law = [as_position(box, 1), as_position(box, 2)]
       associate (block => ghosts%fluid(b), state => p%base)
          do c = 1, block%n_clusters
+            call share_of_ghosts(ghosts, block, c, state, kernel%support, shares)
             do k = block%first(c), block%first(c + 1) - 1
                j = block%slot(k)
                sign = 1
@@ -91,11 +92,7 @@ contains
                   way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
                   call pair_with_value(way(1), way(2), kernel%inverse_support, g, unused)
                   if (.not. g > 0) cycle
-                  if (ghosts%shared) then
-                     call find_share(ghosts, i - ghosts%before, [state%x(j), state%y(j)], [state%x(i), state%y(i)], &
-                                     [1.0_dp, 1.0_dp], mine, unused)
-                     g = mine*g
-                  end if
+                  g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g
                   pass = 1
                   if (kind > 0) pass = ghosts%passes(i - ghosts%before, kind)
                   f = 2*((pass(1)*state%u(i) - state%u(j))*way(1) + (pass(2)*state%v(i) - state%v(j))*way(2)) &

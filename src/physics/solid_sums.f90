@@ -12,7 +12,8 @@ module solid_sums
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: state_t
-   use solid_ghosts, only: find_share, solid_ghosts_t
+   use solid_ghosts, only: solid_ghosts_t
+   use solid_shares, only: share_of_fluid, share_of_ghosts, shares_t
    implicit none
    private
 
@@ -44,86 +45,32 @@ contains
       type(box_t), intent(in) :: box          !! at the state's time
       type(ghost_sums_t), intent(inout) :: sums
 
-      if (ghosts%shared) then
-         call sum_shares(kernel, ghosts, ghosts%fluid(b), state, images, box, sums)
-      else
-         call sum_whole(kernel, ghosts, ghosts%fluid(b), state, images, box, sums)
-      end if
-   end subroutine sum_ghosts
-
-   ! Where no cell has several ghosts.
-   pure subroutine sum_whole(kernel, ghosts, block, state, images, box, sums)
-      type(kernel_t), intent(in) :: kernel
-      type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block
-      type(state_t), intent(in) :: state
-      type(images_t), intent(in) :: images
-      type(box_t), intent(in) :: box
-      type(ghost_sums_t), intent(inout) :: sums
+      type(shares_t) :: shares
       integer :: c, k, n
 
-      do c = 1, block%n_clusters
-         k = (c - 1)*nl
-         n = block%first(c + 1) - block%first(c)
-         call ghost_loop(n, block%slot(block%first(c):block%first(c + 1) - 1), size(state%x), state%x, state%y, state%u, state%v, &
-                         state%s, state%volume, block%before + k, k, kernel%inverse_support, sums)
-         call sum_images(kernel, ghosts, block, c, state, images, box, sums)
-      end do
-   end subroutine sum_whole
-
-   ! The same sums, pair by pair, where some cells have a ghost for each of several faces.
-   pure subroutine sum_shares(kernel, ghosts, block, state, images, box, sums)
-      type(kernel_t), intent(in) :: kernel
-      type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block
-      type(state_t), intent(in) :: state
-      type(images_t), intent(in) :: images
-      type(box_t), intent(in) :: box
-      type(ghost_sums_t), intent(inout) :: sums
-      real(dp) :: way(2), g, w, mine, shared
-      integer :: c, i, j, k, l
-
-      sums%weight = 0; sums%density = 0; sums%way_x = 0; sums%way_y = 0; sums%inflow = 0
-      sums%push_x = 0; sums%push_y = 0; sums%area_x = 0; sums%area_y = 0
-      sums%images = 0
-      do c = 1, block%n_clusters
-         do k = block%first(c), block%first(c + 1) - 1
-            j = block%slot(k)
-            do l = (c - 1)*nl + 1, c*nl
-               i = block%before + l
-               way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
-               call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
-               if (.not. g > 0) cycle
-               call find_share(ghosts, i - ghosts%before, [state%x(j), state%y(j)], [state%x(i), state%y(i)], [1.0_dp, 1.0_dp], &
-                               mine, shared)
-               g = mine*g*state%volume(j)
-               w = shared*w*state%volume(j)
-               sums%weight(l) = sums%weight(l) + w
-               sums%density(l) = sums%density(l) + w*state%s(j)
-               sums%way_x(l) = sums%way_x(l) + w*way(1)
-               sums%way_y(l) = sums%way_y(l) + w*way(2)
-               sums%inflow(l) = sums%inflow(l) + g*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2))
-               if (k < block%first_image(c)) then
-                  sums%push_x(l) = sums%push_x(l) + state%s(j)*g*way(1)
-                  sums%push_y(l) = sums%push_y(l) + state%s(j)*g*way(2)
-                  sums%area_x(l) = sums%area_x(l) + g*way(1)
-                  sums%area_y(l) = sums%area_y(l) + g*way(2)
-               else
-                  call add_image(ghosts, state, images, box, i, j, g*way, sums, l)
-               end if
-            end do
+      associate (block => ghosts%fluid(b))
+         do c = 1, block%n_clusters
+            k = (c - 1)*nl
+            n = block%first(c + 1) - block%first(c)
+            call share_of_ghosts(ghosts, block, c, state, kernel%support, shares)
+            call ghost_loop(n, block%slot(block%first(c):block%first(c + 1) - 1), shares%n, shares%mine, shares%given, &
+                            size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, block%before + k, k, &
+                            kernel%inverse_support, sums)
+            call sum_images(kernel, ghosts, block, c, shares, state, images, box, sums)
          end do
-      end do
-   end subroutine sum_shares
+      end associate
+   end subroutine sum_ghosts
 
    ! Over the fluid and its images, whose density is the hydrostatically continued one.
-   pure subroutine ghost_loop(n_near, near, n, x, y, u, v, s, volume, i0, k0, inverse_support, sums)
-      integer, intent(in) :: n_near, near(n_near), n, i0, k0
+   pure subroutine ghost_loop(n_near, near, n_shares, mine, given, n, x, y, u, v, s, volume, i0, k0, &
+                              inverse_support, sums)
+      integer, intent(in) :: n_near, near(n_near), n_shares, n, i0, k0
+      real(dp), intent(in) :: mine(nl, n_shares), given(nl, n_shares)
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), inverse_support
       type(ghost_sums_t), intent(inout) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, total, density, way_x, way_y, inflow, push_x, push_y, area_x, area_y
       real(dp) :: dx, dy, g, gx, gy, w
-      integer :: k, j, l
+      integer :: k, j, l, m
 
       xi = x(i0 + 1:i0 + nl)
       yi = y(i0 + 1:i0 + nl)
@@ -133,12 +80,14 @@ contains
       push_x = 0; push_y = 0; area_x = 0; area_y = 0
       do k = 1, n_near
          j = near(k)
+         m = min(k, n_shares)
          !$omp simd private(dx, dy, g, gx, gy, w)
          do l = 1, nl
             dx = xi(l) - x(j)
             dy = yi(l) - y(j)
             call pair_with_value(dx, dy, inverse_support, g, w)
-            w = w*volume(j)
+            g = mine(l, m)*g
+            w = given(l, m)*w*volume(j)
             gx = g*volume(j)*dx
             gy = g*volume(j)*dy
             total(l) = total(l) + w
@@ -164,11 +113,12 @@ contains
    end subroutine ghost_loop
 
    ! `push` and `area` of images apart: `ghost_loop` has added them to the fluid's.
-   pure subroutine sum_images(kernel, ghosts, block, c, state, images, box, sums)
+   pure subroutine sum_images(kernel, ghosts, block, c, shares, state, images, box, sums)
       type(kernel_t), intent(in) :: kernel
       type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block
       integer, intent(in) :: c                ! cluster
+      type(shares_t), intent(in) :: shares
       type(state_t), intent(in) :: state
       type(images_t), intent(in) :: images
       type(box_t), intent(in) :: box
@@ -184,7 +134,7 @@ contains
             way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
             call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
             if (.not. g > 0) cycle
-            g = g*state%volume(j)
+            g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g*state%volume(j)
             sums%push_x(l) = sums%push_x(l) - g*state%s(j)*way(1)
             sums%push_y(l) = sums%push_y(l) - g*state%s(j)*way(2)
             sums%area_x(l) = sums%area_x(l) - g*way(1)
@@ -231,64 +181,30 @@ contains
       type(state_t), intent(in) :: state        !! of all slots
       type(box_t), intent(in) :: box            !! at any time
       type(flow_sums_t), intent(inout) :: sums
+      type(shares_t) :: shares
       integer :: c, k
 
       associate (block => ghosts%near(b))
          do c = 1, block%n_clusters
             k = (c - 1)*nl
-            if (ghosts%shared) then
-               call share_loop(kernel, ghosts, block, c, state, box, sums)
-            else
-               call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
-                              size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, size(ghosts%exchange), &
-                              ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
-                              sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
-            end if
+            call share_of_fluid(ghosts, block, c, state, box, kernel%support, shares)
+            call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), shares%n, &
+                           shares%mine, shares%given, size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, &
+                           size(ghosts%exchange), ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
+                           sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
          end do
       end associate
    end subroutine sum_solids
 
-   ! The same pair by pair, where some cells have a ghost for each of several faces.
-   pure subroutine share_loop(kernel, ghosts, block, c, state, box, sums)
-      type(kernel_t), intent(in) :: kernel
-      type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block
-      integer, intent(in) :: c                  ! cluster
-      type(state_t), intent(in) :: state
-      type(box_t), intent(in) :: box
-      type(flow_sums_t), intent(inout) :: sums
-      real(dp) :: way(2), g, w, mine, shared
-      integer :: i, j, k, l
-
-      do l = (c - 1)*nl + 1, c*nl
-         i = block%before + l
-         sums%divergence(l) = 0
-         sums%force_x(l) = 0
-         sums%force_y(l) = 0
-         do k = block%first(c), block%first(c + 1) - 1
-            j = block%slot(k)
-            way = [state%x(j) - state%x(i), state%y(j) - state%y(i)]
-            call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
-            if (.not. g > 0) cycle
-            call find_share(ghosts, j - ghosts%before, [state%x(i), state%y(i)], [state%x(j), state%y(j)], ghosts%signs(box, j), &
-                            mine, shared)
-            g = mine*g*state%volume(j)
-            sums%divergence(l) = sums%divergence(l) + g*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2)) &
-                                 - shared*w*ghosts%exchange(j - ghosts%before)
-            sums%force_x(l) = sums%force_x(l) + (state%s(j) + state%s(i))*g*way(1)
-            sums%force_y(l) = sums%force_y(l) + (state%s(j) + state%s(i))*g*way(2)
-         end do
-      end do
-   end subroutine share_loop
-
-   pure subroutine lane_loop(n_near, near, n, x, y, u, v, s, volume, n_ghosts, exchange, before, i0, inverse_support, divergence, &
-                             force_x, force_y)
-      integer, intent(in) :: n_near, near(n_near), n, n_ghosts, before, i0
+   pure subroutine lane_loop(n_near, near, n_shares, mine, given, n, x, y, u, v, s, volume, n_ghosts, exchange, before, i0, &
+                             inverse_support, divergence, force_x, force_y)
+      integer, intent(in) :: n_near, near(n_near), n_shares, n, n_ghosts, before, i0
+      real(dp), intent(in) :: mine(nl, n_shares), given(nl, n_shares)
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), exchange(n_ghosts), inverse_support
       real(dp), dimension(nl), intent(out) :: divergence, force_x, force_y
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, div, fx, fy
       real(dp) :: dx, dy, g, gx, gy, w
-      integer :: k, j, l
+      integer :: k, j, l, m
 
       xi = x(i0 + 1:i0 + nl)
       yi = y(i0 + 1:i0 + nl)
@@ -300,11 +216,14 @@ contains
       fy = 0
       do k = 1, n_near
          j = near(k)
+         m = min(k, n_shares)
          !$omp simd private(dx, dy, g, gx, gy, w)
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
             call pair_with_value(dx, dy, inverse_support, g, w)
+            g = mine(l, m)*g
+            w = given(l, m)*w
             gx = g*volume(j)*dx
             gy = g*volume(j)*dy
             div(l) = div(l) + (u(j) - ui(l))*gx + (v(j) - vi(l))*gy - w*exchange(j - before)

@@ -126,6 +126,7 @@ contains
       real(dp) :: alpha, factor
       integer :: i, k
 
+      if (.not. any(model%solids%no_slip)) return
       associate (block => near%ghosts%near(b))
          if (block%first(block%n_clusters + 1) == 1) return
          call sum_solid_friction(model%kernel, near%ghosts, b, p%base, model%box, x, y)

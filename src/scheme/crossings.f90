@@ -41,9 +41,9 @@ contains
          impulse = p%m(i)*([p%next%u(i), p%next%v(i)] - velocity)
          lifted = p%m(i)*dot_product(model%acceleration + inertia, place - before)
          call book(1 + (i - i0 - 1)/group_slots, lifted, place - before, sums)
-         if (.not. allocated(sums%struck)) allocate (sums%struck(4, size(obstacles)), source=0.0_dp)
-         associate (pivot => obstacles(k)%pivot)
-            sums%struck(:, k) = sums%struck(:, k) &
+         if (.not. allocated(sums%struck)) allocate (sums%struck(4, size(model%solids)), source=0.0_dp)
+         associate (pivot => obstacles(k)%pivot, number => obstacles(k)%number)
+            sums%struck(:, number) = sums%struck(:, number) &
                + [impulse, (place(1) - pivot(1))*impulse(2) - (place(2) - pivot(2))*impulse(1), &
                   p%m(i)*(model%energy_at(place, velocity) - model%energy_at(before, [p%next%u(i), p%next%v(i)])) - lifted]
          end associate

@@ -12,7 +12,7 @@ module solid_motion
    use particles, only: particles_t
    use rigid_bodies, only: acceleration_of, pose_from, rate_of, way_of
    use solid_terms, only: meet_solids
-   use solids, only: new_obstacle, obstacle_t
+   use solids, only: obstacle_t, obstacles_in
    use step_state, only: step_t
    implicit none
    private
@@ -75,15 +75,10 @@ contains
       class(solid_motion_t), intent(in) :: self
       type(model_t), intent(in) :: model
       type(box_t), intent(in) :: box
-      type(obstacle_t), allocatable, intent(inout) :: obstacles(:)   !! (solids)
-      type(pose_t) :: poses(size(self%poses))
-      integer :: k
+      type(obstacle_t), allocatable, intent(inout) :: obstacles(:)
 
-      poses = model%poses_at(box%time, self%poses)
-      if (.not. allocated(obstacles)) allocate (obstacles(size(poses)))
-      do k = 1, size(poses)
-         obstacles(k) = new_obstacle(model%solids(k), poses(k), box)
-      end do
+      if (allocated(obstacles)) deallocate (obstacles)
+      obstacles = obstacles_in(model%solids, model%poses_at(box%time, self%poses), box)
    end subroutine find_obstacles
 
    !> Goes on to the next stage's poses; how far they are from where lists reach, else what it was.

@@ -1,4 +1,6 @@
-# Whether columns of two tables, found by their names, are the same letter by letter. usage: awk -v names="NAME ..." -f ... ONE OTHER
+# Whether columns of two tables, found by their names, are the same letter by letter, or to a tolerance.
+# usage: awk -v names="NAME ..." [-v tolerance=...] -f ... ONE OTHER
+function differs(a, b) { return tolerance == "" ? a != b : (a - b)^2 > tolerance^2 }
 BEGIN { n = split(names, name, " ") }
 FNR == 1 { file++; named = 0; rows = 0 }
 /^#/ { next }
@@ -9,7 +11,7 @@ FNR == 1 { file++; named = 0; rows = 0 }
       if (!((file, name[i]) in column)) { print "there is no column " name[i]; failed = 1; exit 1 }
       value = $column[file, name[i]]
       if (file == 1) first[rows, i] = value
-      else if (value != first[rows, i]) { print name[i] " in row " rows ": " first[rows, i] " and " value; failed = 1; exit 1 }
+      else if (differs(value, first[rows, i])) { print name[i] " in row " rows ": " first[rows, i] " and " value; failed = 1; exit 1 }
    }
    count[file] = rows
 }

@@ -27,26 +27,34 @@ add_test(NAME threads_make_no_difference_dynamic COMMAND ${CMAKE_COMMAND} -DFIRS
    -P ${scenes}/same_files.cmake)
 set_tests_properties(threads_make_no_difference_dynamic PROPERTIES FIXTURES_REQUIRED dynamic_thread_results TIMEOUT 30)
 
-# The same with solids and all tables, and for a run that goes on.
-foreach(threads IN ITEMS one two)
-   add_test(NAME ${threads}_thread_runs_solids COMMAND ${CMAKE_COMMAND}
-      "-DCOMMAND=${with_${threads}};--quiet;--output;${threads}_thread_solids;${scenes}/moving_block.nml"
-      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DREJECT=NaN;Infinity" "-DCREATED=${threads}_thread_solids" -P ${run_and_expect})
-   set_tests_properties(${threads}_thread_runs_solids PROPERTIES FIXTURES_SETUP solid_thread_results TIMEOUT 60)
-endforeach()
-set_tests_properties(two_thread_runs_solids PROPERTIES PROCESSORS 2)
-add_test(NAME part_of_solids COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--quiet;--set;time.max_steps=35;--output;part_of_solids;${scenes}/moving_block.nml"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DCREATED=part_of_solids" -P ${run_and_expect})
-add_test(NAME rest_of_solids COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;--resume;part_of_solids;--set;time.max_steps=0"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -P ${run_and_expect})
-set_tests_properties(part_of_solids PROPERTIES FIXTURES_SETUP part_of_solids TIMEOUT 60)
-set_tests_properties(rest_of_solids PROPERTIES FIXTURES_REQUIRED part_of_solids FIXTURES_SETUP rest_of_solids TIMEOUT 60)
-foreach(other IN ITEMS two_thread_solids part_of_solids)
-   add_test(NAME ${other}_makes_no_difference COMMAND ${CMAKE_COMMAND} -DFIRST=${here}/one_thread_solids -DSECOND=${here}/${other}
-      "-DFILES=energy.dat;solids.dat;walls.dat;probes.dat;snapshot_000001.vtkhdf" -P ${scenes}/same_files.cmake)
-   set_tests_properties(${other}_makes_no_difference PROPERTIES
-      FIXTURES_REQUIRED "solid_thread_results;part_of_solids;rest_of_solids" TIMEOUT 30)
+# The same with solids and all tables, and for a run that goes on; and with solids carried through periodic sides.
+foreach(case IN ITEMS solids through)
+   set(path ${scenes}/moving_block.nml)
+   set(tables "energy.dat;solids.dat;walls.dat;probes.dat")
+   if(case STREQUAL through)
+      set(path ${scenes}/periodic_solids.nml)
+      set(tables "energy.dat;solids.dat;probes.dat")
+   endif()
+   foreach(threads IN ITEMS one two)
+      add_test(NAME ${threads}_thread_runs_${case} COMMAND ${CMAKE_COMMAND}
+         "-DCOMMAND=${with_${threads}};--quiet;--output;${threads}_thread_${case};${path}"
+         -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DREJECT=NaN;Infinity" "-DCREATED=${threads}_thread_${case}" -P ${run_and_expect})
+      set_tests_properties(${threads}_thread_runs_${case} PROPERTIES FIXTURES_SETUP ${case}_thread_results TIMEOUT 60)
+   endforeach()
+   set_tests_properties(two_thread_runs_${case} PROPERTIES PROCESSORS 2)
+   add_test(NAME part_of_${case} COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=${with_one};--quiet;--set;time.max_steps=35;--output;part_of_${case};${path}"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 "-DCREATED=part_of_${case}" -P ${run_and_expect})
+   add_test(NAME rest_of_${case} COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${with_one};--quiet;--resume;part_of_${case};--set;time.max_steps=0"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -P ${run_and_expect})
+   set_tests_properties(part_of_${case} PROPERTIES FIXTURES_SETUP part_of_${case} TIMEOUT 60)
+   set_tests_properties(rest_of_${case} PROPERTIES FIXTURES_REQUIRED part_of_${case} FIXTURES_SETUP rest_of_${case} TIMEOUT 60)
+   foreach(other IN ITEMS two_thread_${case} part_of_${case})
+      add_test(NAME ${other}_makes_no_difference COMMAND ${CMAKE_COMMAND} -DFIRST=${here}/one_thread_${case} -DSECOND=${here}/${other}
+         "-DFILES=${tables};snapshot_000001.vtkhdf" -P ${scenes}/same_files.cmake)
+      set_tests_properties(${other}_makes_no_difference PROPERTIES
+         FIXTURES_REQUIRED "${case}_thread_results;part_of_${case};rest_of_${case}" TIMEOUT 30)
+   endforeach()
 endforeach()
 
 # reference_speed = 'auto' is found before the run; the complete input has the number and repeats the run bit by bit.

@@ -33,6 +33,9 @@ a_solid(still_slope ${scenes}/still_slope.nml "max_speed 5 8e-3 W_stat 0 2e-5" "
 # Four particles of wall between water of 1 and 0.5: 0.375, with the compression 0.3768. None of it across the floor.
 a_solid(still_wall ${scenes}/still_wall.nml "max_speed 2 3e-3 W_stat 0 1e-5" "wall.force_x 2 0.373 0.381 wall.force_y 0 -1e-9 1e-9"
    "energy_balance_error|0|1e-6;wall_crossings|0|0")
+# The same with three, between the floor and the open top: no fluid comes round an end.
+a_solid(thin_wall ${scenes}/still_wall.nml "max_speed 2 6e-3 W_stat 0 1e-5" "wall.force_x 2 0.373 0.381 wall.force_y 0 -1e-9 1e-9"
+   "energy_balance_error|0|1e-6;wall_crossings|0|0" "solid.upper=1.025,1.7" "body(2).lower=1.025,0")
 # A piston that starts at once: what it gives is the work of its force.
 a_solid(piston ${scenes}/piston.nml "W_stat 0 3e-4 W_pen 0 1e-3" "piston.force_y 0 -1e-9 1e-9 piston.force_x 3 -0.75 -0.5"
    "energy_balance_error|0|1e-3;W_solid|0.2|0.24")
@@ -117,3 +120,28 @@ add_test(NAME solid_collision_ends_the_run COMMAND ${CMAKE_COMMAND}
    -DEXIT_STATUS=2 "-DEXPECT=warning: &solid 'ram' is only .* dx from 'block' at t = .*;&solid 'ram' collides with 'block' at t = .* change their motions, or end the run before. The state is in the last snapshot"
    "-DREJECT=further warnings" "-DCREATED=collision/snapshot_000000.vtkhdf;collision/solids.dat" -P ${run_and_expect})
 set_tests_properties(solid_collision_ends_the_run PROPERTIES TIMEOUT 60)
+add_test(NAME refuses_solids_that_meet_themselves COMMAND ${CMAKE_COMMAND}
+   "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--set;solid.upper=2.65,0.7;--output;through;${scenes}/still_block.nml"
+   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=and is 1.85 = 37 dx long: leave 4 dx between its ends" -P ${run_and_expect})
+set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_that_meet_themselves PROPERTIES TIMEOUT 30)
+
+# Across periodic sides a block is lifted as anywhere else,
+a_solid(block_across ${scenes}/still_block.nml "max_speed 0 1.5e-3 W_solid 0 0 W_stat 0 1e-5"
+   "block.force_y 1 0.1600 0.1616 block.force_x 0 -1e-9 1e-9" "energy_balance_error|0|1e-6;wall_crossings|0|0"
+   domain.left=periodic domain.right=periodic "solid.lower=1.8,0.3" "solid.upper=2.2,0.7" time.end_time=3)
+# and a thin one that is carried through them meets what it would meet elsewhere.
+foreach(case IN ITEMS here through)
+   set(lower 0.8,0.3)
+   set(upper 1.05,0.7)
+   if(case STREQUAL through)
+      set(lower 1.6,0.3)
+      set(upper 1.85,0.7)
+   endif()
+   add_test(NAME solid_${case}_runs COMMAND ${CMAKE_COMMAND}
+      "-DCOMMAND=${with_one};--quiet;--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--set;solid.lower=${lower};--set;solid.upper=${upper};--set;time.end_time=1.5;--output;solid_${case};${scenes}/still_block.nml"
+      -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=0 -DCREATED=solid_${case} -P ${run_and_expect})
+   set_tests_properties(solid_${case}_runs PROPERTIES FIXTURES_SETUP solid_ways TIMEOUT 60)
+endforeach()
+add_test(NAME solid_finds_the_same_beyond_a_side COMMAND ${DYNSPH_AWK} -v tolerance=1e-9 -v "names=time E_K E_P E_C W_solid W_pen max_speed dt"
+   -f ${scenes}/check_same_columns.awk ${here}/solid_here/energy.dat ${here}/solid_through/energy.dat)
+set_tests_properties(solid_finds_the_same_beyond_a_side PROPERTIES FIXTURES_REQUIRED solid_ways TIMEOUT 30)
