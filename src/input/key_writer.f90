@@ -213,7 +213,7 @@ contains
       if (key%follows) row = 'follows'
       if (key%required) row = '**required**'
       row = '|`'//trim(key%name)//'`|'//row//'|'//trim(key%unit)//'|'//key%range_text()//'|'//escaped(trim(key%meaning))
-      if (key%condition /= '') row = row//' Only with '//trim(key%condition)//'.'
+      if (key%condition /= '') row = row//' For '//trim(key%condition)//'.'
       row = row//'|'
    end function table_row
 
