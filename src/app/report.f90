@@ -174,6 +174,7 @@ contains
       words = to_text(size(model%solids))//' solids'
       if (size(model%solids) == 1) words = '1 solid'
       if (any([(model%solids(k)%motion%moves(), k=1, size(model%solids))])) words = words//', moving solids'
+      if (model%has_free_bodies()) words = words//', free bodies'
    end function solids_text
 
    ! Terms that the scene's steps neither compute nor have arrays for.
