@@ -17,7 +17,9 @@ set ylabel energy_axis('energy', data)
 set xlabel scaled_time_in(data)
 set yrange [*<0:*]
 curves = curve(data, 'Q_alpha/dE', 2, 'by viscosity, Q_α').curve(data, 'Q_delta/dE', 1, 'by density diffusion, Q_δ') \
-         .curve(data, 'W_s/dE', 5, 'work of the walls, W_s').curve(data, 'W_f/dE', 6, 'work of the force, W_f')
+         .curve(data, 'W_s/dE', 5, 'work of the walls, W_s').curve(data, 'W_f/dE', 6, 'work of the force, W_f') \
+         .curve(data, 'W_solid/dE', 3, 'work of solids, W_{solid}').curve(data, 'Q_sponge/dE', 4, 'by sponges, Q_{sponge}') \
+         .curve(data, 'Q_damper/dE', 8, 'by dampers, Q_{damper}')
 # Where nothing dissipates and nothing works on the fluid, show what it has.
 if (curves eq '') {
    curves = curve(data, '(E_M-E_M_rest)/dE', 7, 'mechanical energy, E_M − E_M^{rest}')

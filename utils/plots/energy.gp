@@ -19,4 +19,5 @@ set xzeroaxis linetype 1 linecolor rgb '#a0a0a0'
 eval 'plot '.curve(data, '(E_M-E_M_rest)/dE', 7, 'mechanical, E_M − E_M^{rest}') \
             .curve(data, 'E_K/dE', 2, 'kinetic, E_K') \
             .curve(data, '(E_P-E_P_rest)/dE', 1, 'potential, E_P − E_P^{rest}') \
-            .curve(data, '(E_C-E_C_rest)/dE', 3, 'elastic, E_C − E_C^{rest}')
+            .curve(data, '(E_C-E_C_rest)/dE', 3, 'elastic, E_C − E_C^{rest}') \
+            .curve(data, '(E_body-E_body_0)/dE', 5, 'of free bodies, E_{body} − E_{body}(0)')
