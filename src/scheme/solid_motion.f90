@@ -4,9 +4,9 @@
 module solid_motion
    use blocks, only: moment_t
    use box, only: box_t
-   use free_bodies, only: outer_power, own_force
+   use free_bodies, only: add_drag, outer_power, own_force
    use kinds, only: dp
-   use model, only: model_t
+   use model, only: model_t, terms_t
    use motions, only: pose_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
@@ -46,12 +46,16 @@ contains
    subroutine take_forces(self, model, near, moment)
       class(solid_motion_t), intent(inout) :: self
       type(model_t), intent(in) :: model
-      type(neighbours_t), intent(in) :: near
-      type(moment_t), intent(inout) :: moment   !! of the last stage, gets its obstacles
+      type(neighbours_t), intent(inout) :: near   !! friction on its ghosts is that of the step, or of the stage
+      type(moment_t), intent(inout) :: moment     !! of the last stage, gets its obstacles
+      type(terms_t) :: has
       real(dp) :: force(3), weight
       integer :: k
 
       if (.not. allocated(near%ghosts%free)) return
+      has = model%terms()
+      ! Even if forces on ghosts are frozen, their moment is not: ghosts give it its power where they are.
+      if (has%sticky_solids .and. has%viscosity) call add_drag(model, near)
       weight = model%integrator%weight(moment%stage)*moment%dt
       do k = 1, size(self%poses)
          associate (body => model%solids(k)%body, pose => self%poses(k))
