@@ -44,6 +44,7 @@ contains
          if (well(i) .and. draft%notes%clean('body')) call check_fluid(draft, i)
       end do
       call check_gaps_between(draft, well)
+      call check_overlaps(draft, well)
    end subroutine check_solids
 
    ! A name heads columns: it must be one word and its own.
@@ -147,6 +148,24 @@ contains
             //'move it or the side')
       end associate
    end subroutine check_sides
+
+   !> Free bodies do not hold each other up.
+   subroutine check_overlaps(draft, well)
+      type(draft_t), intent(inout) :: draft
+      logical, intent(in) :: well(:)   !! nothing is wrong with them
+      integer :: i, k
+
+      associate (scene => draft%scene, solids => draft%scene%solids)
+         do i = 2, size(solids)
+            do k = 1, i - 1
+               if (.not. all(solids([i, k])%motion == 'free' .and. well([i, k]))) cycle
+               if (overlaps(starting_outline(scene, solids(i)), starting_outline(scene, solids(k)))) &
+                  call draft%warning('solid', i, 'motion', '&solid '//quoted(solids(i)%name)//' begins on ' &
+                                     //quoted(solids(k)%name)//', and both are free: they go through each other; move one of them')
+            end do
+         end do
+      end associate
+   end subroutine check_overlaps
 
    !> Friction is explicit: in a step it must not turn the motion of a light body round. That of fluid at rest on an edge, per
    !! length and speed, is about 3 mu/h (measured).
