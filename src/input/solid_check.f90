@@ -3,12 +3,13 @@
 module solid_check
    use derived_settings, only: solid_speed
    use draft, only: draft_t
+   use kernel, only: k_2d
    use kinds, only: dp
    use motion_check, only: compare_with_sound, warn_of_rest
    use name_table, only: name_table_t
    use polygons, only: find_crossing, is_inside, narrowest, polygon_area, regular_polygon
    use scanner, only: letters
-   use settings, only: body_settings
+   use settings, only: body_settings, side_names
    use rigid_bodies, only: rigid_body_t
    use solid_outlines, only: body_of, starting_outline
    use solid_room, only: check_gaps_between, check_room, in_words, ways_across
@@ -38,9 +39,12 @@ contains
       if (.not. draft%notes%clean('domain model')) return
       do i = 1, size(well)
          if (well(i)) call check_room(draft, i, well(i))
+         if (well(i)) call check_sides(draft, i, well(i))
+         if (well(i)) call check_friction(draft, i)
          if (well(i) .and. draft%notes%clean('body')) call check_fluid(draft, i)
       end do
       call check_gaps_between(draft, well)
+      call check_overlaps(draft, well)
    end subroutine check_solids
 
    ! A name heads columns: it must be one word and its own.
@@ -121,6 +125,75 @@ contains
             //short(2*pi/rate)//' s, less than '//short(fewest_steps)//' steps: make them softer, the body heavier or cfl smaller')
       end associate
    end subroutine check_free_body
+
+   !> What sides hold is not free.
+   subroutine check_sides(draft, number, well)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: number
+      logical, intent(out) :: well
+      real(dp), allocatable :: outline(:, :)
+      real(dp) :: beyond(4)
+      integer :: side
+
+      well = .true.
+      associate (scene => draft%scene, solid => draft%scene%solids(number))
+         if (solid%motion /= 'free') return
+         outline = starting_outline(scene, solid)
+         beyond([1, 3]) = scene%domain%lower - minval(outline, 2)
+         beyond([2, 4]) = maxval(outline, 2) - scene%domain%upper
+         side = findloc(scene%side_kinds() /= 'open' .and. beyond > scene%margin(), .true., 1)
+         well = side == 0
+         if (.not. well) call draft%mistake('solid', number, 'motion', '&solid '//quoted(solid%name)//' reaches '// &
+            short(beyond(side))//' beyond the '//trim(side_names(side))//' side of &domain, and nothing holds a free body there: ' &
+            //'move it or the side')
+      end associate
+   end subroutine check_sides
+
+   !> Free bodies do not hold each other up.
+   subroutine check_overlaps(draft, well)
+      type(draft_t), intent(inout) :: draft
+      logical, intent(in) :: well(:)   !! nothing is wrong with them
+      integer :: i, k
+
+      associate (scene => draft%scene, solids => draft%scene%solids)
+         do i = 2, size(solids)
+            do k = 1, i - 1
+               if (.not. all(solids([i, k])%motion == 'free' .and. well([i, k]))) cycle
+               if (overlaps(starting_outline(scene, solids(i)), starting_outline(scene, solids(k)))) &
+                  call draft%warning('solid', i, 'motion', '&solid '//quoted(solids(i)%name)//' begins on ' &
+                                     //quoted(solids(k)%name)//', and both are free: they go through each other; move one of them')
+            end do
+         end do
+      end associate
+   end subroutine check_overlaps
+
+   !> Friction is explicit: in a step it must not turn the motion of a light body round. That of fluid at rest on an edge, per
+   !! length and speed, is about 3 mu/h (measured).
+   subroutine check_friction(draft, number)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: number
+      real(dp), parameter :: per_edge = 3, largest = 1   ! [mu/h]; change of speed in a step, over the speed
+      type(rigid_body_t) :: body
+      real(dp), allocatable :: arm(:, :), next(:, :), length(:)
+      real(dp) :: rubbed(3), rate, step
+
+      associate (scene => draft%scene, solid => draft%scene%solids(number), h => draft%scene%smoothing_length())
+         if (solid%motion /= 'free' .or. solid%surface /= 'no_slip' .or. .not. draft%notes%clean('fluid time scene model solid')) &
+            return
+         body = body_of(solid)
+         arm = starting_outline(scene, solid)
+         arm = arm - spread(solid%pivot, 2, size(arm, 2))
+         next = cshift(arm, 1, 2)
+         length = norm2(next - arm, 1)
+         rubbed = [sum(length), sum(length), sum(length*sum(arm**2 + arm*next + next**2, 1))/3]
+         step = scene%time%cfl*h/scene%fluid%sound_speed
+         rate = maxval(merge(rubbed/body%masses(), 0.0_dp, body%moves)) &
+                *per_edge/h*scene%alpha_total()*scene%fluid%density*scene%fluid%sound_speed*h/k_2d
+         if (rate*step > largest) call draft%mistake('solid', number, 'surface', '&solid '//quoted(solid%name) &
+            //' is too light for its friction, which would stop it in '//short(1/rate)//' s, less than a step of '//short(step) &
+            //" s: make it heavier, cfl smaller or surface = 'free_slip'")
+      end associate
+   end subroutine check_friction
 
    !> A shape must have an inside.
    subroutine check_shape(draft, number, well)

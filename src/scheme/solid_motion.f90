@@ -4,32 +4,35 @@
 module solid_motion
    use blocks, only: moment_t
    use box, only: box_t
-   use free_bodies, only: outer_power, own_force
+   use free_bodies, only: add_drag, outer_power, own_force
    use kinds, only: dp
-   use model, only: model_t
+   use model, only: model_t, terms_t
    use motions, only: pose_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t
    use rigid_bodies, only: acceleration_of, pose_from, rate_of, way_of
+   use runge_kutta, only: fastest
    use solid_terms, only: meet_solids
    use solids, only: obstacle_t, obstacles_in
    use step_state, only: step_t
    implicit none
    private
 
-   public :: solid_motion_t, new_solid_motion, meet_at_base
+   public :: solid_motion_t, new_solid_motion, lost_solid, meet_at_base
 
    !> The way of all solids in a step.
    type :: solid_motion_t
       type(pose_t), allocatable :: poses(:)            !! (solids) at the stage; at last, at the end of the step
       real(dp) :: damped = 0                           !! [J/m] that dampers took,
       real(dp) :: given = 0                            !! [J/m] and that the uniform force and inertia gave
+      integer :: lost = 0                              !! a free solid that has left its range as a particle can; 0: none
       type(pose_t), allocatable, private :: base(:)
       real(dp), allocatable, private :: change(:, :)   ! (6, solids) dt sum_k b_k of velocity and acceleration
    contains
       procedure :: find_obstacles
       procedure :: take_forces
       procedure :: lead_on
+      procedure, private :: keep_range
    end type solid_motion_t
 
 contains
@@ -46,12 +49,16 @@ contains
    subroutine take_forces(self, model, near, moment)
       class(solid_motion_t), intent(inout) :: self
       type(model_t), intent(in) :: model
-      type(neighbours_t), intent(in) :: near
-      type(moment_t), intent(inout) :: moment   !! of the last stage, gets its obstacles
+      type(neighbours_t), intent(inout) :: near   !! friction on its ghosts is that of the step, or of the stage
+      type(moment_t), intent(inout) :: moment     !! of the last stage, gets its obstacles
+      type(terms_t) :: has
       real(dp) :: force(3), weight
       integer :: k
 
       if (.not. allocated(near%ghosts%free)) return
+      has = model%terms()
+      ! Even if forces on ghosts are frozen, their moment is not: ghosts give it its power where they are.
+      if (has%sticky_solids .and. has%viscosity) call add_drag(model, near)
       weight = model%integrator%weight(moment%stage)*moment%dt
       do k = 1, size(self%poses)
          associate (body => model%solids(k)%body, pose => self%poses(k))
@@ -67,6 +74,7 @@ contains
       end do
       if (moment%stage < model%integrator%stages) return
       self%poses = model%poses_at(moment%last_box%time, ahead(self, 1.0_dp, self%change))
+      call self%keep_range(model)
       call self%find_obstacles(model, moment%last_box, moment%obstacles)
    end subroutine take_forces
 
@@ -99,9 +107,34 @@ contains
       end do
       self%poses = model%poses_at(time, ahead(self, step, rates))
       if (.not. allocated(near%ghosts%free)) return
+      call self%keep_range(model)
       call near%ghosts%free%overreach(model%solids, self%poses, near%age + step, way)
+      if (self%lost > 0) way = huge(way)   ! no lists are for it
       farthest = max(farthest, way)
    end subroutine lead_on
+
+   ! Puts solids that left their range back to where the step began, and notes that there are any.
+   pure subroutine keep_range(self, model)
+      class(solid_motion_t), intent(inout) :: self
+      type(model_t), intent(in) :: model
+
+      if (self%lost == 0) self%lost = lost_solid(model, self%poses)
+      if (self%lost > 0) self%poses = self%base
+   end subroutine keep_range
+
+   !> The number of a free solid that is too fast for any lists, or nowhere; 0 if there is none.
+   pure integer function lost_solid(model, poses) result(lost)
+      type(model_t), intent(in) :: model
+      type(pose_t), intent(in) :: poses(:)
+      integer :: k
+
+      lost = 0
+      do k = 1, size(poses)
+         associate (pose => poses(k), solid => model%solids(k))
+            if (solid%body%is_free() .and. .not. norm2(pose%velocity) + abs(pose%spin)*solid%radius() < fastest*model%c0) lost = k
+         end associate
+      end do
+   end function lost_solid
 
    ! From the base: by a time and rates.
    pure function ahead(self, time, rates) result(poses)

@@ -35,7 +35,10 @@ contains
                                //moment(run)//': '//who//'; close the open side it left by')
             return
          end if
-         if (run%lost) then
+         if (run%lost_solid > 0) call problem%raise(exit_numerics, '&solid number '//to_text(run%lost_solid)//', a free body, ' &
+            //'left its range in step '//moment(run)//': it is faster than '//short(fastest)//' c0; a smaller cfl, or a larger ' &
+            //'mass or moment of inertia may help')
+         if (run%lost .and. run%lost_solid == 0) then
             ! Slots ascend with x: the last of all is that of the last process that has one.
             words = ''
             if (run%lost_slot > 0) words = loss_text(model, p, run)

@@ -10,7 +10,7 @@ module step_outcome
    use neighbours, only: neighbours_t
    use rigid_bodies, only: rate_of
    use search_margins, only: lists_hold, overreach
-   use solid_motion, only: solid_motion_t
+   use solid_motion, only: lost_solid, solid_motion_t
    use step_state, only: n_of_solid, step_t, take_extremes
    use strips, only: extent_t, group_slots
    implicit none
@@ -33,7 +33,7 @@ module step_outcome
       real(dp) :: overreach(most_stages) = 0   !! of the lists, in the state that a stage leads to; the result is void if not 0
       real(dp) :: mean_acceleration = 0, largest_acceleration = 0   !! of blocks
       type(extent_t) :: extent                 !! in x, and of velocities
-      logical :: lost = .false.                !! a particle left its range
+      logical :: lost = .false.                !! a particle or a free solid left its range
       logical :: lasts = .false.               !! the lists serve for the next step
    contains
       procedure :: first_overreach
@@ -75,7 +75,7 @@ contains
       type(neighbours_t), intent(in) :: near
       real(dp), intent(in) :: dt
       type(block_t), intent(in) :: blocks(:)
-      type(outcome_t), intent(inout) :: all   !! with the own overreach
+      type(outcome_t), intent(inout) :: all   !! with the own overreach, and the motion of solids
       logical, intent(inout) :: notes(:)
       integer, parameter :: n_sums = 11
       real(dp), allocatable :: table(:, :)    ! sums of each strip
@@ -128,7 +128,7 @@ contains
       all%largest_acceleration = largest(7)
       all%overreach = largest(8:7 + most_stages)
       associate (others => largest(8 + most_stages:))
-         all%lost = others(1) > 0
+         all%lost = others(1) > 0 .or. all%motion%lost > 0
          all%lasts = .not. others(2) > 0
          notes = others(3:2 + size(notes)) > 0
          associate (span => others(3 + size(notes):))
@@ -233,7 +233,9 @@ contains
       run%singular = run%singular + all%singular
       call take_extremes(model, all%speed_2, all%pressure, all%largest_s, run)
       run%lost_slot = max(0, maxval(blocks%lost_slot))
-      run%lost = all%lost
+      run%lost_solid = all%motion%lost
+      if (model%has_solids()) run%lost_solid = max(run%lost_solid, lost_solid(model, run%poses))
+      run%lost = all%lost .or. run%lost_solid > 0
       near%lasts = all%lasts .and. lasts
       near%mean_acceleration = all%mean_acceleration
       near%largest_acceleration = all%largest_acceleration

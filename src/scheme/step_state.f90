@@ -42,7 +42,8 @@ module step_state
       real(dp) :: variation = 0             !! max |rho - rho0|/rho0 of the base state
       real(dp) :: largest_mach = 0          !! over all steps
       real(dp) :: largest_variation = 0     !! over all steps
-      logical :: lost = .false.             !! some particle's state left its range (not kept: then all ends)
+      logical :: lost = .false.             !! some particle's or free solid's state left its range (not kept: then all ends)
+      integer :: lost_solid = 0             !! number of such a solid; 0 if none (not kept: then all ends)
       integer :: lost_slot = 0              !! slot of a particle whose state left its range; 0 if none (not kept: then all ends)
       logical :: scattered = .false.        !! some particle is too far away for the neighbour search (not kept: then all ends)
    contains

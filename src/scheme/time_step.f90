@@ -322,8 +322,8 @@ contains
       near%jumped = any(blocks%wrapped)
       jumps = blocks%jump
       call watch_margins(near, model%integrator, run%dt, changes, jumps)
-      call add_up(model, near, run%dt, blocks, all, notes)
       all%motion = solids
+      call add_up(model, near, run%dt, blocks, all, notes)
    end subroutine stages
 
    ! The power of walls that move, as a stage's part of the step's.
