@@ -9,7 +9,7 @@ module solid_check
    use name_table, only: name_table_t
    use polygons, only: find_crossing, is_inside, narrowest, polygon_area, regular_polygon
    use scanner, only: letters
-   use settings, only: body_settings, side_names
+   use settings, only: body_settings, is_wall, side_names
    use rigid_bodies, only: rigid_body_t
    use solid_outlines, only: body_of, starting_outline
    use solid_room, only: check_gaps_between, check_room, in_words, ways_across
@@ -126,7 +126,7 @@ contains
       end associate
    end subroutine check_free_body
 
-   !> What sides hold is not free.
+   !> What walls hold is not free.
    subroutine check_sides(draft, number, well)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
@@ -141,11 +141,11 @@ contains
          outline = starting_outline(scene, solid)
          beyond([1, 3]) = scene%domain%lower - minval(outline, 2)
          beyond([2, 4]) = maxval(outline, 2) - scene%domain%upper
-         side = findloc(scene%side_kinds() /= 'open' .and. beyond > scene%margin(), .true., 1)
+         side = findloc(is_wall(scene%side_kinds()) .and. beyond > scene%margin(), .true., 1)
          well = side == 0
          if (.not. well) call draft%mistake('solid', number, 'motion', '&solid '//quoted(solid%name)//' reaches '// &
-            short(beyond(side))//' beyond the '//trim(side_names(side))//' side of &domain, and nothing holds a free body there: ' &
-            //'move it or the side')
+            short(beyond(side))//' beyond the '//trim(side_names(side))//' wall, and nothing holds a free body there: ' &
+            //'move it or the wall')
       end associate
    end subroutine check_sides
 
