@@ -30,6 +30,7 @@ module free_ghosts
    contains
       procedure :: make_room
       procedure :: expect
+      procedure :: allowance
       procedure :: take_lists
       procedure :: overreach
    end type free_ghosts_t
@@ -70,6 +71,14 @@ contains
       end do
    end subroutine expect
 
+   !> How far lists that cover a time allow ghosts to be beside their way [m].
+   pure real(dp) function allowance(self, time)
+      class(free_ghosts_t), intent(in) :: self
+      real(dp), intent(in) :: time   !! [s]
+
+      allowance = max(self%acceleration*time**2, least_way*self%width)
+   end function allowance
+
    !> Takes what lists are made for; how far they shall allow ghosts to be beside their way [m].
    pure subroutine take_lists(self, poses, age, time, allowed)
       class(free_ghosts_t), intent(inout) :: self
@@ -81,7 +90,7 @@ contains
       self%listed = poses
       self%age = age
       self%time = time
-      self%allowed = max(self%acceleration*time**2, least_way*self%width)
+      self%allowed = self%allowance(time)
       allowed = self%allowed
    end subroutine take_lists
 

@@ -173,6 +173,7 @@ contains
       self%images%strips%bin_height = widths(2)
       self%images%strips%origin = box%at(1)
       reach = widths(3) + 2*slack + sum(times)*maxval(abs([self%strips%overall%slowest, self%strips%overall%fastest]))
+      if (allocated(self%free)) reach = reach + self%free%allowance(sum(times))
       call list_images(self%images, then, p, times(1), times(2), reach, self%before)
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
