@@ -4,7 +4,7 @@
 BEGIN {
    # Of lanes, 2 is SSE2, whose few instructions do not do for the lists.
    n = split("first=sum_first|constant_loop|dynamic_loop second=complete_frozen_terms|first_stage|sum_eddy|sum_diffusion" \
-             " stages=later_stage|sum_flow lists=pick", rule, " ")
+             " stages=later_stage._omp_fn|sum_flow lists=pick", rule, " ")
    for (i = 1; i <= n; i++) { split(rule[i], part, "="); name[i] = part[1]; procedures[i] = part[2] }
    if (lanes == 2) n--
    split("0.3 1 0.4 0.3", limit, " ")

@@ -107,10 +107,7 @@ set_tests_properties(solid_heave_decay_follows_theory PROPERTIES FIXTURES_REQUIR
 add_test(NAME refuses_solids_that_leave_no_fluid COMMAND ${CMAKE_COMMAND}
    "-DCOMMAND=${with_one};--set;solid.lower=-1,-1;--set;solid.upper=5,1.4;--output;no_fluid;${scenes}/still_block.nml"
    -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=no fluid is left: the solids cover each &body" -P ${run_and_expect})
-add_test(NAME refuses_solids_through_periodic_sides COMMAND ${CMAKE_COMMAND}
-   "-DCOMMAND=${with_one};--set;domain.left=periodic;--set;domain.right=periodic;--set;solid.motion=uniform;--set;solid.velocity=0.5,0;--output;through;${scenes}/still_block.nml"
-   -DWORKING_DIRECTORY=${here} -DEXIT_STATUS=1 "-DEXPECT=moves through the periodic right side of &domain at t = 1.6" -P ${run_and_expect})
-set_tests_properties(refuses_solids_that_leave_no_fluid refuses_solids_through_periodic_sides PROPERTIES TIMEOUT 30)
+set_tests_properties(refuses_solids_that_leave_no_fluid PROPERTIES TIMEOUT 30)
 
 # Solids that come too near, once; the run ends where they collide, and keeps what it has.
 file(READ ${scenes}/still_block.nml text)
