@@ -110,8 +110,7 @@ contains
       integer :: k
 
       has = model%terms()
-      poses = model%poses_at(run%time)
-      if (allocated(run%poses)) poses = run%poses
+      poses = model%poses_at(run%time, run%poses)
       call row%add('time', 'time', run%time)
       call row%add('time_scaled', self%scale%name, run%time/self%scale%unit)
       do k = 1, size(forces)
