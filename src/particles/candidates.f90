@@ -10,7 +10,7 @@ module candidates
    implicit none
    private
 
-   public :: candidates_t, group_extent, list_group, trim_lists
+   public :: candidates_t, shared_candidates_t, group_extent, list_group, trim_lists
 
    integer, parameter, public :: block_slots = 128                 !! slots in a block
    integer, parameter, public :: block_clusters = block_slots/nl   !! clusters in a block
@@ -28,6 +28,18 @@ module candidates
       procedure :: bytes => candidates_bytes
    end type candidates_t
 
+   !> Lists between the fluid and ghosts of solids, and how each pair acts.
+   type, extends(candidates_t) :: shared_candidates_t
+      logical :: shared(block_clusters) = .false.   !! some pairs of the cluster may not act
+      real(dp), allocatable :: part(:, :)           !! (nl, 0:places in `slot`) acts, gives or 0; place 0: acts
+   contains
+      procedure :: bytes => shared_candidates_bytes
+      procedure :: parts
+   end type shared_candidates_t
+
+   real(dp), parameter, public :: gives = 1   !! of a pair: the ghost has its pressure also of the particle
+   real(dp), parameter, public :: acts = 2    !! and the two act on each other
+
 contains
 
    !> Bytes that a block takes.
@@ -37,6 +49,23 @@ contains
       bytes = storage_size(self, kind=i8)/8
       if (allocated(self%slot)) bytes = bytes + size(self%slot, kind=i8)*storage_size(self%slot)/8
    end function candidates_bytes
+
+   pure elemental integer(i8) function shared_candidates_bytes(self) result(bytes)
+      class(shared_candidates_t), intent(in) :: self
+
+      bytes = self%candidates_t%bytes()
+      if (allocated(self%part)) bytes = bytes + size(self%part, kind=i8)*storage_size(self%part)/8
+   end function shared_candidates_bytes
+
+   !> First and last place in `part` of a cluster: one for each place in its list, or one for all.
+   pure function parts(self, c)
+      class(shared_candidates_t), intent(in) :: self
+      integer, intent(in) :: c   !! cluster
+      integer :: parts(2)
+
+      parts = 0
+      if (self%shared(c)) parts = [self%first(c), self%first(c + 1) - 1]
+   end function parts
 
    !> Where a group's particles are predicted, how fast they are, and their slack.
    pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)

@@ -4,7 +4,7 @@
 !! strips of their own, and have images like the fluid's. They are in no list of the fluid's own sums.
 module solid_ghosts
    use box, only: box_t, way_back
-   use candidates, only: block_groups, candidates_t, group_extent, list_group, trim_lists
+   use candidates, only: acts, block_groups, candidates_t, group_extent, list_group, shared_candidates_t, trim_lists
    use free_ghosts, only: free_ghosts_t, new_free_ghosts
    use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
@@ -39,8 +39,8 @@ module solid_ghosts
       type(strips_t) :: strips
       type(images_t) :: images
       integer :: n_blocks = 0
-      type(candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
-      type(candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
+      type(shared_candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
+      type(shared_candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
       ! By slot, counted from their first:
       integer, allocatable :: solid_of(:)          !! (n_slots) the ghost's solid; 0 for a dummy
       integer, allocatable :: face(:)              !! (n_slots and images) the face that it is for; 0: for all
@@ -417,12 +417,12 @@ contains
       do b = 1, size(blocks)
          self%near(b)%before = blocks(b)%before
          self%near(b)%n_clusters = blocks(b)%n_clusters
-         call list_block(self%near(b), self%strips, self%images%strips, p, predicted, times(2), support)
+         call list_block(self%near(b)%candidates_t, self%strips, self%images%strips, p, predicted, times(2), support)
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, self%n_blocks
-         call list_block(self%fluid(b), strips, images, p, predicted, times(2), support)
+         call list_block(self%fluid(b)%candidates_t, strips, images, p, predicted, times(2), support)
       end do
       !$omp end do
       !$omp end parallel
@@ -439,12 +439,23 @@ contains
       if (allocated(self%near)) then
          if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid)
       end if
-      if (.not. allocated(self%near)) allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8))
+      if (.not. allocated(self%near)) then
+         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8))
+         call set_parts(self%near)
+         call set_parts(self%fluid)
+      end if
       do b = 1, self%n_blocks
          self%fluid(b)%before = self%before + (b - 1)*block_groups*group_slots
          self%fluid(b)%n_clusters = min(block_groups, n_groups - (b - 1)*block_groups)*group_slots/nl
       end do
    end subroutine lay_out
+
+   ! All pairs act.
+   elemental subroutine set_parts(block)
+      type(shared_candidates_t), intent(inout) :: block
+
+      allocate (block%part(nl, 0:0), source=acts)
+   end subroutine set_parts
 
    ! The lists of a block's clusters.
    subroutine list_block(block, strips, images, p, predicted, travel, support)

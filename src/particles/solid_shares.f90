@@ -1,10 +1,11 @@
 !> Which pairs act where cells of solids have a ghost for each of several faces.
 !!
 !! Source: ours (docs/equations.md, Thin solids). A particle and a ghost act on each other if the way to the ghost first leads
-!! through its face; the ghost has its pressure also of particles that come through faces that do not look the other way.
+!! through its face; the ghost has its pressure also of particles that come through faces that do not look the other way. Found
+!! once a step: the energy that the fluid gets is the solids' as long as the same pairs act for both, whichever they are.
 module solid_shares
    use box, only: box_t
-   use candidates, only: candidates_t
+   use candidates, only: acts, gives, shared_candidates_t
    use kinds, only: dp
    use lanes, only: nl
    use particles, only: state_t
@@ -15,14 +16,10 @@ module solid_shares
    implicit none
    private
 
-   public :: shares_t, share_of_fluid, share_of_ghosts
+   public :: find_shares
 
-   !> Of the pairs of a cluster, 1 or 0 by its lanes and places in its list.
-   type :: shares_t
-      integer :: n = 0                       !! rows: one for each place, or one for all where no cell has several ghosts
-      real(dp), allocatable :: mine(:, :)    !! (nl, n) the two act on each other
-      real(dp), allocatable :: given(:, :)   !! (nl, n) the ghost has its pressure also of the particle
-   end type shares_t
+   real(dp), parameter :: reach = 1.5_dp   ! times the kernel's support: pairs that are farther do not come near in a step
+   real(dp), parameter :: flatter = 1.0e-6_dp, beside(2) = [0.6e-9_dp, 1.0e-9_dp]   ! more than rounding, less than matters
 
    ! The faces that the ways of a cluster lead through first.
    type :: crossed_t
@@ -32,26 +29,69 @@ module solid_shares
 
 contains
 
-   !> Of a cluster of the fluid and the ghosts near it.
-   pure subroutine share_of_fluid(ghosts, block, c, state, box, support, shares)
-      type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block      !! of the fluid
-      integer, intent(in) :: c                     !! cluster
+   !> Of all pairs in the lists, as fluid, ghosts and images are in a state. Only where cells have several ghosts.
+   subroutine find_shares(ghosts, n_blocks, state, box, support)
+      type(solid_ghosts_t), intent(inout) :: ghosts
+      integer, intent(in) :: n_blocks              !! of the fluid
       type(state_t), intent(in) :: state           !! of all slots
       type(box_t), intent(in) :: box               !! at any time
       real(dp), intent(in) :: support              !! of the kernel
-      type(shares_t), intent(inout) :: shares
+      integer :: b, c, m0
+      logical :: mixed
+
+      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support) private(c, m0, mixed)
+      !$omp do schedule(dynamic)
+      do b = 1, n_blocks
+         do c = 1, ghosts%near(b)%n_clusters
+            associate (block => ghosts%near(b))
+               mixed = any(ghosts%face(block%slot(block%first(c):block%first(c + 1) - 1) - ghosts%before) > 0)
+               call begin_parts(block, c, mixed)
+            end associate
+            if (mixed) call share_of_fluid(ghosts, b, c, state, box, reach*support)
+         end do
+      end do
+      !$omp end do
+      !$omp do schedule(dynamic)
+      do b = 1, ghosts%n_blocks
+         do c = 1, ghosts%fluid(b)%n_clusters
+            m0 = ghosts%fluid(b)%before + (c - 1)*nl - ghosts%before
+            mixed = any(ghosts%face(m0 + 1:m0 + nl) > 0)
+            call begin_parts(ghosts%fluid(b), c, mixed)
+            if (mixed) call share_of_ghosts(ghosts, b, c, state, reach*support)
+         end do
+      end do
+      !$omp end do
+      !$omp end parallel
+   end subroutine find_shares
+
+   ! Room for the parts of a block, where some ghosts of a cluster are not alone in their cells.
+   pure subroutine begin_parts(block, c, mixed)
+      type(shared_candidates_t), intent(inout) :: block
+      integer, intent(in) :: c
+      logical, intent(in) :: mixed
+      integer :: n
+
+      block%shared(c) = mixed
+      n = block%first(block%n_clusters + 1) - 1
+      if (.not. mixed .or. ubound(block%part, 2) >= n) return
+      deallocate (block%part)
+      allocate (block%part(nl, 0:n + n/8), source=acts)
+   end subroutine begin_parts
+
+   ! Of a cluster of the fluid and the ghosts near it.
+   pure subroutine share_of_fluid(ghosts, b, c, state, box, support)
+      type(solid_ghosts_t), intent(inout) :: ghosts
+      integer, intent(in) :: b, c                  ! block of the fluid, and its cluster
+      type(state_t), intent(in) :: state
+      type(box_t), intent(in) :: box
+      real(dp), intent(in) :: support              ! farther pairs do not matter
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: x, y, from_x, from_y, to_x, to_y, face, normal_x, normal_y
       real(dp) :: sign(2), place(2), last(2), way(2)
       integer :: i0, j, k, m, number, only
-      logical :: some, mirrored, is_other
+      logical :: mirrored, is_other
 
-      associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
-         some = ghosts%shared
-         if (some) some = any(ghosts%face(near - ghosts%before) > 0)
-         call begin_rows(some, size(near), shares)
-         if (.not. some) return
+      associate (block => ghosts%near(b))
          i0 = block%before + (c - 1)*nl
          x = state%x(i0 + 1:i0 + nl)
          y = state%y(i0 + 1:i0 + nl)
@@ -59,11 +99,12 @@ contains
          only = 0
          last = 0
          way = 0
-         do k = 1, size(near)
-            j = near(k)
+         do k = block%first(c), block%first(c + 1) - 1
+            j = block%slot(k)
             m = j - ghosts%before
             mirrored = m > ghosts%n_slots
             if (mirrored) m = ghosts%images%source(m - ghosts%n_slots) - ghosts%before
+            block%part(:, k) = acts
             if (ghosts%face(m) == 0) cycle
             associate (solid => ghosts%obstacles(ghosts%solid_of(m)), normal => ghosts%obstacles(ghosts%solid_of(m))%normal)
                is_other = number /= ghosts%solid_of(m) .or. any(abs(ghosts%way(:, m) - way) > 0)
@@ -71,8 +112,8 @@ contains
                way = ghosts%way(:, m)
                if (is_other) only = only_face(solid, around(x - way(1), y - way(2), support))
                if (only > 0 .and. .not. mirrored) then
-                  shares%mine(:, k) = merge(1, 0, only == ghosts%face(m))
-                  shares%given(:, k) = merge(1, 0, dot_product(normal(:, only), normal(:, ghosts%face(m))) > turned_away)
+                  if (only == ghosts%face(m)) cycle
+                  block%part(:, k) = merge(gives, 0.0_dp, dot_product(normal(:, only), normal(:, ghosts%face(m))) > turned_away)
                   cycle
                end if
                place = [state%x(j), state%y(j)]
@@ -90,32 +131,25 @@ contains
                normal_x = normal(1, ghosts%face(m))
                normal_y = normal(2, ghosts%face(m))
             end associate
-            call take_parts(crossed, face, normal_x, normal_y, shares%mine(:, k), shares%given(:, k))
+            call take_parts(crossed, face, normal_x, normal_y, block%part(:, k))
          end do
       end associate
    end subroutine share_of_fluid
 
-   !> Of a cluster of ghosts and the fluid near it.
-   pure subroutine share_of_ghosts(ghosts, block, c, state, support, shares)
-      type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block      !! of ghosts
-      integer, intent(in) :: c                     !! cluster
-      type(state_t), intent(in) :: state           !! of all slots
-      real(dp), intent(in) :: support              !! of the kernel
-      type(shares_t), intent(inout) :: shares
+   ! Of a cluster of ghosts and the fluid near it.
+   pure subroutine share_of_ghosts(ghosts, b, c, state, support)
+      type(solid_ghosts_t), intent(inout) :: ghosts
+      integer, intent(in) :: b, c                  ! block of ghosts, and its cluster
+      type(state_t), intent(in) :: state
+      real(dp), intent(in) :: support              ! farther pairs do not matter
       type(crossed_t) :: crossed, of_solid
       real(dp), dimension(nl) :: from_x, from_y, to_x, to_y, face, normal_x, normal_y
       logical :: leads(nl)                         ! first lanes of their solids
-      integer :: number(nl), i0, k, l, m0
-      logical :: some
+      integer :: number(nl), i0, j, k, l, m0
 
-      associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
+      associate (block => ghosts%fluid(b))
          i0 = block%before + (c - 1)*nl
          m0 = i0 - ghosts%before
-         some = ghosts%shared
-         if (some) some = any(ghosts%face(m0 + 1:m0 + nl) > 0)
-         call begin_rows(some, size(near), shares)
-         if (.not. some) return
          normal_x = 0
          normal_y = 0
          number = 0
@@ -130,9 +164,10 @@ contains
          face = ghosts%face(m0 + 1:m0 + nl)
          to_x = ghosts%place(1, m0 + 1:m0 + nl)
          to_y = ghosts%place(2, m0 + 1:m0 + nl)
-         do k = 1, size(near)
-            from_x = to_x + (state%x(near(k)) - state%x(i0 + 1:i0 + nl))
-            from_y = to_y + (state%y(near(k)) - state%y(i0 + 1:i0 + nl))
+         do k = block%first(c), block%first(c + 1) - 1
+            j = block%slot(k)
+            from_x = to_x + (state%x(j) - state%x(i0 + 1:i0 + nl))
+            from_y = to_y + (state%y(j) - state%y(i0 + 1:i0 + nl))
             do l = 1, nl
                if (.not. leads(l)) cycle
                call find_crossed(ghosts%obstacles(number(l)), support, from_x, from_y, to_x, to_y, of_solid)
@@ -146,56 +181,43 @@ contains
                   end where
                end if
             end do
-            call take_parts(crossed, face, normal_x, normal_y, shares%mine(:, k), shares%given(:, k))
+            call take_parts(crossed, face, normal_x, normal_y, block%part(:, k))
          end do
       end associate
    end subroutine share_of_ghosts
 
-   ! Ones: a row for each place if some ghosts are not alone in their cells, else one for all.
-   pure subroutine begin_rows(some, n_near, shares)
-      logical, intent(in) :: some
-      integer, intent(in) :: n_near
-      type(shares_t), intent(inout) :: shares
-      integer :: n
-
-      n = 1
-      if (some) n = max(1, n_near)
-      if (allocated(shares%mine)) then
-         if (size(shares%mine, 2) < n) deallocate (shares%mine, shares%given)
-      end if
-      if (.not. allocated(shares%mine)) allocate (shares%mine(nl, n + n/4), shares%given(nl, n + n/4))
-      shares%n = n
-      shares%mine(:, :n) = 1
-      shares%given(:, :n) = 1
-   end subroutine begin_rows
-
    ! The parts of pairs, from the faces of the ghosts and those that are crossed.
-   pure subroutine take_parts(crossed, face, normal_x, normal_y, mine, given)
+   pure subroutine take_parts(crossed, face, normal_x, normal_y, part)
       type(crossed_t), intent(in) :: crossed
       real(dp), intent(in) :: face(nl), normal_x(nl), normal_y(nl)   ! of the ghosts; 0 for those that are alone in their cells
-      real(dp), intent(out) :: mine(nl), given(nl)
-      real(dp) :: alike, alone
+      real(dp), intent(out) :: part(nl)
+      real(dp) :: alike, mine, given
       integer :: l
 
-      !$omp simd private(alike, alone)
+      !$omp simd private(alike, mine, given)
       do l = 1, nl
          alike = normal_x(l)*crossed%normal_x(l) + normal_y(l)*crossed%normal_y(l)
-         alone = merge(1.0_dp, 0.0_dp, face(l) < 0.5_dp)
-         mine(l) = max(alone, merge(1.0_dp, 0.0_dp, abs(crossed%face(l) - face(l)) < 0.5_dp))
-         given(l) = max(alone, merge(1.0_dp, 0.0_dp, min(alike - turned_away, crossed%face(l)) > 0))
+         given = merge(gives, 0.0_dp, min(alike - turned_away, crossed%face(l)) > 0)
+         mine = merge(acts, given, abs(crossed%face(l) - face(l)) < 0.5_dp)
+         part(l) = merge(acts, mine, face(l) < 0.5_dp)
       end do
    end subroutine take_parts
 
    ! What straight ways lead through first. Where a way leads through nothing, as from inside, it is what is nearest to its begin.
-   pure subroutine find_crossed(solid, support, from_x, from_y, to_x, to_y, crossed)
+   !
+   ! Ways on a lattice lead exactly through corners, where rounding would decide. So they are taken to be a little flatter, which
+   ! is the same to the left and to the right, and to begin beside the particle by still less, for those that are level.
+   pure subroutine find_crossed(solid, support, particle_x, particle_y, to_x, to_y, crossed)
       type(obstacle_t), intent(in) :: solid
-      real(dp), intent(in) :: support             ! ways that are longer do not matter
-      real(dp), dimension(nl), intent(in) :: from_x, from_y, to_x, to_y
+      real(dp), intent(in) :: support              ! ways that are longer do not matter
+      real(dp), dimension(nl), intent(in) :: particle_x, particle_y, to_x, to_y
       type(crossed_t), intent(out) :: crossed
-      real(dp), dimension(nl) :: distance_2, first
+      real(dp), dimension(nl) :: distance_2, first, from_x, from_y
       real(dp) :: room(4), foot(2), normal(2), distance
       integer :: edge, k, l, only
 
+      from_x = particle_x + flatter*(particle_x - to_x) + beside(1)*support
+      from_y = particle_y + beside(2)*support
       room = around(from_x, from_y, support)
       only = only_face(solid, room)
       if (only > 0) then

@@ -3,7 +3,7 @@
 !! Source: ours (docs/equations.md, Solid bodies): as at no-slip walls, a ghost has the velocity 2 U - u_f for particle f.
 module solid_friction
    use box, only: box_t
-   use candidates, only: block_slots
+   use candidates, only: acts, block_slots
    use image_laws, only: as_position, law_t
    use images, only: images_t
    use kernel, only: kernel_t, pair_with_value, squared_distance
@@ -11,7 +11,6 @@ module solid_friction
    use lanes, only: nl
    use particles, only: particles_t, state_t
    use solid_ghosts, only: solid_ghosts_t
-   use solid_shares, only: share_of_fluid, share_of_ghosts, shares_t
    implicit none
    private
 
@@ -20,23 +19,21 @@ module solid_friction
 contains
 
    !> The viscous sum over ghosts that the fluid sticks to: pi_ib with u_b - u_i = 2 (U - u_i), and alpha_i for both.
-   pure subroutine sum_solid_friction(kernel, ghosts, b, state, box, x, y)
+   pure subroutine sum_solid_friction(kernel, ghosts, b, state, x, y)
       type(kernel_t), intent(in) :: kernel
       type(solid_ghosts_t), intent(in) :: ghosts
       integer, intent(in) :: b                  !! number of the block
       type(state_t), intent(in) :: state
-      type(box_t), intent(in) :: box            !! at any time
       real(dp), intent(out) :: x(block_slots)   !! [m3/s] sum_b pi_ib x_bi t**3 V_b
       real(dp), intent(out) :: y(block_slots)   !! [m3/s]
-      type(shares_t) :: shares
       real(dp) :: way(2), g, f, unused
-      integer :: c, i, j, k, l
+      integer :: c, i, j, k, l, parts(2)
 
       x = 0
       y = 0
       associate (block => ghosts%near(b))
          do c = 1, block%n_clusters
-            call share_of_fluid(ghosts, block, c, state, box, kernel%support, shares)
+            parts = block%parts(c)
             do k = block%first(c), block%first(c + 1) - 1
                j = block%slot(k)
                if (.not. ghosts%stick(j - ghosts%before) > 0) cycle
@@ -45,7 +42,7 @@ contains
                   way = [state%x(j) - state%x(i), state%y(j) - state%y(i)]
                   call pair_with_value(way(1), way(2), kernel%inverse_support, g, unused)
                   if (.not. g > 0) cycle
-                  g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g
+                  if (block%part(l - (c - 1)*nl, min(k, parts(2))) < acts) cycle
                   f = 2*((state%u(j) - state%u(i))*way(1) + (state%v(j) - state%v(i))*way(2))/squared_distance(way(1), way(2))
                   f = f*g*state%volume(j)
                   x(l) = x(l) + f*way(1)
@@ -66,16 +63,15 @@ contains
       type(box_t), intent(in) :: box
       real(dp), intent(in) :: alpha              !! [1] that acts everywhere
       real(dp), intent(out) :: sums(4, block_slots)   !! [m3/s] sum_f alpha_f pi_fb r t**3 V_f, of images mirrored; as it is
-      type(shares_t) :: shares
       real(dp) :: way(2), g, f, unused, alpha_j, sign(2), pass(2)
       type(law_t) :: law(2)
-      integer :: c, i, j, k, kind, l
+      integer :: c, i, j, k, kind, l, parts(2)
 
       sums = 0
       law = [as_position(box, 1), as_position(box, 2)]
       associate (block => ghosts%fluid(b), state => p%base)
          do c = 1, block%n_clusters
-            call share_of_ghosts(ghosts, block, c, state, kernel%support, shares)
+            parts = block%parts(c)
             do k = block%first(c), block%first(c + 1) - 1
                j = block%slot(k)
                sign = 1
@@ -92,7 +88,7 @@ contains
                   way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
                   call pair_with_value(way(1), way(2), kernel%inverse_support, g, unused)
                   if (.not. g > 0) cycle
-                  g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g
+                  if (block%part(l - (c - 1)*nl, min(k, parts(2))) < acts) cycle
                   pass = 1
                   if (kind > 0) pass = ghosts%passes(i - ghosts%before, kind)
                   f = 2*((pass(1)*state%u(i) - state%u(j))*way(1) + (pass(2)*state%v(i) - state%v(j))*way(2)) &

@@ -4,7 +4,7 @@
 !! transposed, give the fluid the ghost's share of the divergence.
 module solid_sums
    use box, only: box_t
-   use candidates, only: block_slots, candidates_t
+   use candidates, only: acts, block_slots, gives, shared_candidates_t
    use flow_sums, only: flow_sums_t
    use image_laws, only: as_position, image_of, law_t
    use images, only: images_t
@@ -13,7 +13,6 @@ module solid_sums
    use lanes, only: nl
    use particles, only: state_t
    use solid_ghosts, only: solid_ghosts_t
-   use solid_shares, only: share_of_fluid, share_of_ghosts, shares_t
    implicit none
    private
 
@@ -44,28 +43,27 @@ contains
       type(images_t), intent(in) :: images    !! of the fluid
       type(box_t), intent(in) :: box          !! at the state's time
       type(ghost_sums_t), intent(inout) :: sums
-
-      type(shares_t) :: shares
-      integer :: c, k, n
+      integer :: c, k, n, parts(2)
 
       associate (block => ghosts%fluid(b))
          do c = 1, block%n_clusters
             k = (c - 1)*nl
             n = block%first(c + 1) - block%first(c)
-            call share_of_ghosts(ghosts, block, c, state, kernel%support, shares)
-            call ghost_loop(n, block%slot(block%first(c):block%first(c + 1) - 1), shares%n, shares%mine, shares%given, &
+            parts = block%parts(c)
+            call ghost_loop(n, block%slot(block%first(c):block%first(c + 1) - 1), parts(2) - parts(1) + 1, &
+                            block%part(:, parts(1):parts(2)), &
                             size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, block%before + k, k, &
                             kernel%inverse_support, sums)
-            call sum_images(kernel, ghosts, block, c, shares, state, images, box, sums)
+            call sum_images(kernel, ghosts, block, c, state, images, box, sums)
          end do
       end associate
    end subroutine sum_ghosts
 
    ! Over the fluid and its images, whose density is the hydrostatically continued one.
-   pure subroutine ghost_loop(n_near, near, n_shares, mine, given, n, x, y, u, v, s, volume, i0, k0, &
+   pure subroutine ghost_loop(n_near, near, n_parts, part, n, x, y, u, v, s, volume, i0, k0, &
                               inverse_support, sums)
-      integer, intent(in) :: n_near, near(n_near), n_shares, n, i0, k0
-      real(dp), intent(in) :: mine(nl, n_shares), given(nl, n_shares)
+      integer, intent(in) :: n_near, near(n_near), n_parts, n, i0, k0
+      real(dp), intent(in) :: part(nl, n_parts)
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), inverse_support
       type(ghost_sums_t), intent(inout) :: sums
       real(dp), dimension(nl) :: xi, yi, ui, vi, total, density, way_x, way_y, inflow, push_x, push_y, area_x, area_y
@@ -80,14 +78,14 @@ contains
       push_x = 0; push_y = 0; area_x = 0; area_y = 0
       do k = 1, n_near
          j = near(k)
-         m = min(k, n_shares)
+         m = min(k, n_parts)
          !$omp simd private(dx, dy, g, gx, gy, w)
          do l = 1, nl
             dx = xi(l) - x(j)
             dy = yi(l) - y(j)
             call pair_with_value(dx, dy, inverse_support, g, w)
-            g = mine(l, m)*g
-            w = given(l, m)*w*volume(j)
+            g = max(0.0_dp, part(l, m) - gives)*g
+            w = min(gives, part(l, m))*w*volume(j)
             gx = g*volume(j)*dx
             gy = g*volume(j)*dy
             total(l) = total(l) + w
@@ -113,19 +111,19 @@ contains
    end subroutine ghost_loop
 
    ! `push` and `area` of images apart: `ghost_loop` has added them to the fluid's.
-   pure subroutine sum_images(kernel, ghosts, block, c, shares, state, images, box, sums)
+   pure subroutine sum_images(kernel, ghosts, block, c, state, images, box, sums)
       type(kernel_t), intent(in) :: kernel
       type(solid_ghosts_t), intent(in) :: ghosts
-      type(candidates_t), intent(in) :: block
+      type(shared_candidates_t), intent(in) :: block
       integer, intent(in) :: c                ! cluster
-      type(shares_t), intent(in) :: shares
       type(state_t), intent(in) :: state
       type(images_t), intent(in) :: images
       type(box_t), intent(in) :: box
       type(ghost_sums_t), intent(inout) :: sums
       real(dp) :: way(2), g, w
-      integer :: i, j, k, l
+      integer :: i, j, k, l, parts(2)
 
+      parts = block%parts(c)
       sums%images(:, (c - 1)*nl + 1:c*nl) = 0
       do k = block%first_image(c), block%first(c + 1) - 1
          j = block%slot(k)
@@ -134,7 +132,8 @@ contains
             way = [state%x(i) - state%x(j), state%y(i) - state%y(j)]
             call pair_with_value(way(1), way(2), kernel%inverse_support, g, w)
             if (.not. g > 0) cycle
-            g = shares%mine(l - (c - 1)*nl, min(k - block%first(c) + 1, shares%n))*g*state%volume(j)
+            if (block%part(l - (c - 1)*nl, min(k, parts(2))) < acts) cycle
+            g = g*state%volume(j)
             sums%push_x(l) = sums%push_x(l) - g*state%s(j)*way(1)
             sums%push_y(l) = sums%push_y(l) - g*state%s(j)*way(2)
             sums%area_x(l) = sums%area_x(l) - g*way(1)
@@ -174,32 +173,31 @@ contains
    end subroutine add_image
 
    !> What solids add to the flow sums of a block of the fluid.
-   pure subroutine sum_solids(kernel, ghosts, b, state, box, sums)
+   pure subroutine sum_solids(kernel, ghosts, b, state, sums)
       type(kernel_t), intent(in) :: kernel
       type(solid_ghosts_t), intent(in) :: ghosts
       integer, intent(in) :: b                  !! number of the block
       type(state_t), intent(in) :: state        !! of all slots
-      type(box_t), intent(in) :: box            !! at any time
       type(flow_sums_t), intent(inout) :: sums
-      type(shares_t) :: shares
-      integer :: c, k
+      integer :: c, k, parts(2)
 
       associate (block => ghosts%near(b))
          do c = 1, block%n_clusters
             k = (c - 1)*nl
-            call share_of_fluid(ghosts, block, c, state, box, kernel%support, shares)
-            call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), shares%n, &
-                           shares%mine, shares%given, size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, &
-                           size(ghosts%exchange), ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
+            parts = block%parts(c)
+            call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
+                           parts(2) - parts(1) + 1, block%part(:, parts(1):parts(2)), &
+                           size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, size(ghosts%exchange), &
+                           ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
                            sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
          end do
       end associate
    end subroutine sum_solids
 
-   pure subroutine lane_loop(n_near, near, n_shares, mine, given, n, x, y, u, v, s, volume, n_ghosts, exchange, before, i0, &
+   pure subroutine lane_loop(n_near, near, n_parts, part, n, x, y, u, v, s, volume, n_ghosts, exchange, before, i0, &
                              inverse_support, divergence, force_x, force_y)
-      integer, intent(in) :: n_near, near(n_near), n_shares, n, n_ghosts, before, i0
-      real(dp), intent(in) :: mine(nl, n_shares), given(nl, n_shares)
+      integer, intent(in) :: n_near, near(n_near), n_parts, n, n_ghosts, before, i0
+      real(dp), intent(in) :: part(nl, n_parts)
       real(dp), intent(in) :: x(n), y(n), u(n), v(n), s(n), volume(n), exchange(n_ghosts), inverse_support
       real(dp), dimension(nl), intent(out) :: divergence, force_x, force_y
       real(dp), dimension(nl) :: xi, yi, ui, vi, si, div, fx, fy
@@ -216,14 +214,14 @@ contains
       fy = 0
       do k = 1, n_near
          j = near(k)
-         m = min(k, n_shares)
+         m = min(k, n_parts)
          !$omp simd private(dx, dy, g, gx, gy, w)
          do l = 1, nl
             dx = x(j) - xi(l)
             dy = y(j) - yi(l)
             call pair_with_value(dx, dy, inverse_support, g, w)
-            g = mine(l, m)*g
-            w = given(l, m)*w
+            g = max(0.0_dp, part(l, m) - gives)*g
+            w = min(gives, part(l, m))*w
             gx = g*volume(j)*dx
             gy = g*volume(j)*dy
             div(l) = div(l) + (u(j) - ui(l))*gx + (v(j) - vi(l))*gy - w*exchange(j - before)

@@ -15,6 +15,7 @@ module solid_terms
    use particles, only: particles_t, state_t
    use solid_ghosts, only: mirror_ghosts, move_ghosts
    use solid_friction, only: sum_ghost_friction, sum_solid_friction
+   use solid_shares, only: find_shares
    use solid_sums, only: ghost_sums_t, sum_ghosts, sum_solids
    use strips, only: group_slots
    implicit none
@@ -28,17 +29,22 @@ contains
 
    !> Moves the ghosts to the poses of the solids, and gives them the pressure of the fluid near them; the force on each, and its
    !! power.
-   subroutine meet_solids(model, box, poses, near, state)
+   subroutine meet_solids(model, box, poses, near, state, later)
       type(model_t), intent(in) :: model
       type(box_t), intent(in) :: box               !! at the state's time
       type(pose_t), intent(in) :: poses(:)         !! (solids) then
       type(neighbours_t), intent(inout) :: near
       type(state_t), intent(inout) :: state        !! fluid and images are filled; the ghosts and theirs are set
+      logical, intent(in), optional :: later       !! in a step: pairs act as they did at its begin
       type(ghost_sums_t) :: sums
       integer :: b
 
       if (.not. near%ghosts%exist()) return
       call move_ghosts(near%ghosts, model%solids, poses, box, state)
+      if (near%ghosts%shared .and. .not. present(later)) then
+         call mirror_ghosts(near%ghosts, box, state)   ! their images, too, are where they act from
+         call find_shares(near%ghosts, near%n_blocks, state, box, model%kernel%support)
+      end if
       !$omp parallel do default(none) shared(model, box, near, state) private(sums) schedule(dynamic)
       do b = 1, near%ghosts%n_blocks
          associate (block => near%ghosts%fluid(b))
@@ -103,7 +109,7 @@ contains
       associate (block => near%ghosts%near(b))
          if (block%first(block%n_clusters + 1) == 1) return
          n = nl*block%n_clusters
-         call sum_solids(model%kernel, near%ghosts, b, state, model%box, solid)
+         call sum_solids(model%kernel, near%ghosts, b, state, solid)
          do k = 1, n
             i = block%before + k
             g = 1 + (k - 1)/group_slots
@@ -129,7 +135,7 @@ contains
       if (.not. any(model%solids%no_slip)) return
       associate (block => near%ghosts%near(b))
          if (block%first(block%n_clusters + 1) == 1) return
-         call sum_solid_friction(model%kernel, near%ghosts, b, p%base, model%box, x, y)
+         call sum_solid_friction(model%kernel, near%ghosts, b, p%base, x, y)
          do k = 1, nl*block%n_clusters
             i = block%before + k
             alpha = model%alpha

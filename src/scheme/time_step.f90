@@ -202,11 +202,11 @@ contains
       type(timers_t), intent(inout) :: timers
       real(dp) :: travel
 
-      travel = near%travel
-      if (near%age + run%dt - near%tau > travel) travel = 1.1_dp*(run%dt - near%tau)
+      travel = merge(1.1_dp*(run%dt - near%tau), near%travel, near%age + run%dt - near%tau > near%travel)
       if (.not. (wider .or. travel > near%travel)) return
       call timers%start(phase_sort)
       call list_neighbours(near, p, model%kernel, travel)
+      if (near%ghosts%shared) call meet_at_base(model, p, near, run)
       call timers%stop(phase_sort)
    end subroutine reach_out
 
@@ -424,7 +424,7 @@ contains
             near%division%waiting = near%division%waiting + wall_seconds() - started
          end if
          if (solids_are_due(near, part)) then
-            call meet_solids(model, moment%box, solids%poses, near, p%stage(now))
+            call meet_solids(model, moment%box, solids%poses, near, p%stage(now), later=.true.)
             call take_solid_work(near, p%stage(now), model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
             call solids%take_forces(model, near, moment)
          end if
@@ -464,7 +464,7 @@ contains
       now = stage_state(moment%stage)
       allocate (kept%u(p%capacity), kept%v(p%capacity), kept%s(p%capacity))
       call fill_ghosts(near%images, moment%box, p%stage(now))
-      call meet_solids(model, moment%box, solids%poses, near, p%stage(now))
+      call meet_solids(model, moment%box, solids%poses, near, p%stage(now), later=.true.)
       call swap_states(p%base, p%stage(now))
       call swap_states(p%next, kept)
       if (p%features%no_slip) call fill_slip(near%images, moment%box, p)
