@@ -119,7 +119,7 @@ contains
             pushed = (run%solids(3:5, k) - self%impulses(3*k - 2:3*k))/(run%time - self%time)
          associate (solid => model%solids(k))
             if (solid%motion%moves()) call add_pose(trim(self%names(k)), poses(k), solid%pivot, row)
-            call add_forces(trim(self%names(k)), forces(k), pushed, solid%no_slip .and. has%viscosity, row)
+            call add_forces(trim(self%names(k)), forces(k), pushed, has%viscosity, row)
             if (solid%motion%moves()) then
                call row%add(trim(self%names(k))//'.power', 'power/width', forces(k)%power)
                call row%add(trim(self%names(k))//'.work', 'energy/width', run%solids(1, k) + run%solids(6, k))

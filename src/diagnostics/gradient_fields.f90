@@ -16,7 +16,9 @@ module gradient_fields
    use neighbours, only: neighbours_t
    use no_slip_sums, only: sum_jump_gradient
    use particles, only: particles_t
-   use renormalisation, only: renormalise
+   use renormalisation, only: matrices_t, renormalise
+   use solid_friction, only: reflected_sums_t, sum_solid_friction
+   use solid_terms, only: add_solid_strain
    use strips, only: group_slots
    implicit none
    private
@@ -59,6 +61,7 @@ contains
             if (p%features%no_slip) call sum_jump_gradient(model%kernel, block, p, i0, sums)
             call take_fields(model%kernel%gradient_factor, sums, nl*block%n_clusters, fields%vorticity(i0 + 1:), &
                              fields%strain(i0 + 1:))
+            if (near%ghosts%meet(b)) call take_strain(model, near, b, p, sums, fields%strain(i0 + 1:))
          end associate
       end do
       !$omp end parallel do
@@ -81,6 +84,25 @@ contains
          strain(k) = strain_rate(gradient)
       end do
    end subroutine take_fields
+
+   ! Near solids the rate of strain sees what these reflect.
+   pure subroutine take_strain(model, near, b, p, sums, strain)
+      type(model_t), intent(in) :: model
+      type(neighbours_t), intent(in) :: near
+      integer, intent(in) :: b                    ! number of the block
+      type(particles_t), intent(in) :: p
+      type(first_sums_t), intent(inout) :: sums   ! of the fluid; the velocity gradient changes
+      real(dp), intent(inout) :: strain(:)        ! from the block's first slot on
+      type(reflected_sums_t) :: reflected
+      type(matrices_t) :: l
+      integer :: k
+
+      call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
+      call add_solid_strain(model, nl*near%blocks(b)%n_clusters, reflected, sums, l)
+      do k = 1, nl*near%blocks(b)%n_clusters
+         strain(k) = strain_rate(velocity_gradient(model%kernel%gradient_factor, sums, k, l%xx(k), l%xy(k), l%yy(k)))
+      end do
+   end subroutine take_strain
 
    !> alpha_i and delta_i of the dynamic model at the base state, of all slots: those of the last step are of another one.
    subroutine renew_coefficients(model, near, p)

@@ -48,7 +48,7 @@ contains
       integer :: k, m
 
       has = model%terms()
-      if (has%sticky_solids .and. has%viscosity) then
+      if (has%rubbing_solids) then
          if (model%dynamic) call renew_coefficients(model, near, p)
          call rub_solids(model, box, near, p)
       end if

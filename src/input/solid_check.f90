@@ -178,8 +178,7 @@ contains
       real(dp) :: rubbed(3), rate, step
 
       associate (scene => draft%scene, solid => draft%scene%solids(number), h => draft%scene%smoothing_length())
-         if (solid%motion /= 'free' .or. solid%surface /= 'no_slip' .or. .not. draft%notes%clean('fluid time scene model solid')) &
-            return
+         if (solid%motion /= 'free' .or. .not. draft%notes%clean('fluid time scene model solid')) return
          body = body_of(solid)
          arm = starting_outline(scene, solid)
          arm = arm - spread(solid%pivot, 2, size(arm, 2))
@@ -189,9 +188,9 @@ contains
          step = scene%time%cfl*h/scene%fluid%sound_speed
          rate = maxval(merge(rubbed/body%masses(), 0.0_dp, body%moves)) &
                 *per_edge/h*scene%alpha_total()*scene%fluid%density*scene%fluid%sound_speed*h/k_2d
-         if (rate*step > largest) call draft%mistake('solid', number, 'surface', '&solid '//quoted(solid%name) &
+         if (rate*step > largest) call draft%mistake('solid', number, 'mass', '&solid '//quoted(solid%name) &
             //' is too light for its friction, which would stop it in '//short(1/rate)//' s, less than a step of '//short(step) &
-            //" s: make it heavier, cfl smaller or surface = 'free_slip'")
+            //' s: make it heavier, or alpha or cfl smaller')
       end associate
    end subroutine check_friction
 

@@ -8,7 +8,7 @@ module polygons
    private
 
    public :: polygon_area, polygon_centroid, polygon_second_moment, clip_polygon, regular_polygon, turned
-   public :: is_inside, nearest_edge, edge_normal, edge_distance, find_crossing, sharpest_corner, thinnest, narrowest
+   public :: is_inside, nearest_edge, edge_normal, edge_distance, edge_point, find_crossing, sharpest_corner, thinnest, narrowest
 
    real(dp), parameter :: pi = acos(-1.0_dp)
    integer, parameter :: most_samples = 50   ! of an edge, so that a long one does not take most of the time
@@ -175,8 +175,18 @@ contains
       integer, intent(in) :: edge
       real(dp), intent(in) :: place(2)         !! [m]
 
-      distance = length_of(place - nearest_point(vertices(:, edge), vertices(:, mod(edge, size(vertices, 2)) + 1), place))
+      distance = length_of(place - edge_point(vertices, edge, place))
    end function edge_distance
+
+   !> Point of an edge that is nearest to a place [m].
+   pure function edge_point(vertices, edge, place) result(point)
+      real(dp), intent(in) :: vertices(:, :)   !! (2, n) [m]
+      integer, intent(in) :: edge
+      real(dp), intent(in) :: place(2)         !! [m]
+      real(dp) :: point(2)
+
+      point = nearest_point(vertices(:, edge), vertices(:, mod(edge, size(vertices, 2)) + 1), place)
+   end function edge_point
 
    !> The first two edges that cross, touch or, as neighbours, fold back onto each other; 0, 0 if there are none.
    !!

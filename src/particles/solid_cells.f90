@@ -7,7 +7,7 @@ module solid_cells
    use box, only: axis_of, box_t, inward, is_wall
    use kinds, only: dp
    use motions, only: move_point, pose_t, turn
-   use polygons, only: clip_polygon, edge_distance, edge_normal, nearest_edge, polygon_area, polygon_centroid, turned
+   use polygons, only: clip_polygon, edge_distance, edge_normal, edge_point, nearest_edge, polygon_area, polygon_centroid, turned
    use solids, only: new_obstacle, obstacle_t, solid_t, walls_crossed
    implicit none
    private
@@ -24,6 +24,7 @@ module solid_cells
       integer :: edge = 0               !! the face that the ghost is for; 0: for all
       real(dp) :: place(2) = 0          !! [m] centroid
       real(dp) :: normal(2) = 0         !! of that face, or the nearest one, outwards
+      real(dp) :: depth = 0             !! [m] of the centroid behind it
       real(dp) :: area = 0              !! [m2]
       integer :: n_corners = 0          !! 0: no wall ever cuts it
       real(dp) :: corner(2, most_corners) = 0
@@ -117,7 +118,6 @@ contains
       type(cell_t), allocatable, intent(inout) :: found(:)
       integer, intent(inout) :: n
       integer :: faces(size(is_face)), edge, k, m, n_faces
-      real(dp) :: foot(2), distance
       logical :: alone
 
       n_faces = 0
@@ -128,16 +128,46 @@ contains
          faces(n_faces) = edge
       end do
       if (n_faces == 0) return
-      call nearest_edge(outline, is_face, cell%place, edge, distance, foot, cell%normal)
+      call find_face(outline, is_face, 1.0e-9_dp*support, cell)
       alone = .not. any([((opposite(outline, faces(k), faces(m)), k=1, m - 1), m=2, n_faces)])
       do k = 1, merge(1, n_faces, alone)
          if (.not. alone) cell%edge = faces(k)
          if (.not. alone) cell%normal = edge_normal(outline, faces(k))
+         if (.not. alone) cell%depth = dot_product(cell%normal, outline(:, faces(k)) - cell%place)
          if (n == size(found)) found = [found, found]
          n = n + 1
          found(n) = cell
       end do
    end subroutine add_cell
+
+   ! The face that is nearest to a cell. Of faces that are as near, as in a corner of a lattice along both, it is what bevels them:
+   ! none is before the others, and what is symmetric stays so.
+   pure subroutine find_face(outline, is_face, margin, cell)
+      real(dp), intent(in) :: outline(:, :), margin   ! (2, n) [m]; that distances may differ by [m]
+      logical, intent(in) :: is_face(:)
+      type(cell_t), intent(inout) :: cell             ! its normal and depth are set
+      real(dp) :: distance, foot(2), nearest(2), total(2)
+      integer :: edge, k, n
+
+      call nearest_edge(outline, is_face, cell%place, edge, distance, foot, nearest)
+      total = 0
+      n = 0
+      do k = 1, size(is_face)
+         if (.not. is_face(k)) cycle
+         associate (normal => edge_normal(outline, k))
+            if (edge_distance(outline, k, cell%place) > distance + margin) cycle
+            if (dot_product(normal, edge_point(outline, k, cell%place) - cell%place) &
+                < dot_product(nearest, foot - cell%place) - margin) cycle
+            total = total + normal
+            n = n + 1
+         end associate
+      end do
+      cell%normal = nearest
+      cell%depth = distance
+      if (n < 2 .or. .not. norm2(total) > 1) return
+      cell%normal = total/norm2(total)
+      cell%depth = n*distance/norm2(total)
+   end subroutine find_face
 
    ! Whether two faces look in directions so different that fluid before one has no part in the ghosts of the other.
    pure logical function opposite(outline, one, other)

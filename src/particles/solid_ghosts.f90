@@ -6,6 +6,7 @@ module solid_ghosts
    use box, only: box_t, way_back
    use candidates, only: acts, block_groups, candidates_t, group_extent, list_group, shared_candidates_t, trim_lists
    use free_ghosts, only: free_ghosts_t, new_free_ghosts
+   use ghost_faces, only: ghost_faces_t
    use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
@@ -47,7 +48,7 @@ module solid_ghosts
       real(dp), allocatable :: area(:)             !! [m2] (n_slots) as drawn
       real(dp), allocatable :: pull_x(:), pull_y(:)   !! [m/s2] (n_slots) (A.n) n, A the solid's acceleration there
       real(dp), allocatable :: exchange(:)         !! (n_slots and images) q_b/S_b without constant factors
-      real(dp), allocatable :: stick(:)            !! (n_slots and images) 1 where the fluid sticks to the solid, else 0
+      type(ghost_faces_t) :: faces                 !! how they rub on the fluid
       real(dp), allocatable :: force(:, :)         !! [N/m] (2, n_slots) of pressure on the ghost's part of the solid
       real(dp), allocatable :: power(:)            !! [W/m] (n_slots) that this gives to the fluid
       real(dp), allocatable :: friction(:, :)      !! [N/m] (4, n_slots) force of friction, and the same as its power goes with
@@ -58,6 +59,7 @@ module solid_ghosts
       real(dp), allocatable :: way(:, :)           !! [m] (2, n_slots) from there to where the ghost is in a periodic box
    contains
       procedure :: exist
+      procedure :: meet
       procedure :: signs
       procedure :: passes
       procedure :: bytes => ghosts_bytes
@@ -71,6 +73,15 @@ contains
 
       exist = self%n > 0
    end function exist
+
+   !> Whether some may be near a block of the fluid.
+   pure logical function meet(self, b)
+      class(solid_ghosts_t), intent(in) :: self
+      integer, intent(in) :: b   !! its number
+
+      meet = self%exist()
+      if (meet) meet = self%near(b)%first(self%near(b)%n_clusters + 1) > 1
+   end function meet
 
    !> -1 for axes along which the ghost in a slot is mirrored, else 1.
    pure function signs(self, box, slot)
@@ -111,7 +122,7 @@ contains
 
       bytes = 0
       if (.not. self%exist()) return
-      bytes = self%strips%bytes() + self%images%bytes() + size(self%drawn, kind=i8)*storage_size(self%drawn)/8
+      bytes = self%strips%bytes() + self%images%bytes() + size(self%drawn, kind=i8)*storage_size(self%drawn)/8 + self%faces%bytes()
       if (allocated(self%fluid)) bytes = bytes + sum(self%fluid%bytes()) + sum(self%near%bytes())
    end function ghosts_bytes
 
@@ -178,16 +189,15 @@ contains
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
       call resize(self%exchange, self%n_slots + self%images%n)
-      call resize(self%stick, self%n_slots + self%images%n)
+      call self%faces%make_room(self%n_slots, self%images%n)
       call set_faces(self)
       do k = 1, self%n_slots
-         self%stick(k) = 0
          self%x(k) = far_away
          if (self%solid_of(k) == 0) cycle
          self%x(k) = x(self%strips%point_of(k))
-         self%stick(k) = merge(1.0_dp, 0.0_dp, solids(self%solid_of(k))%no_slip)
+         call self%faces%stand_behind(k, solids(self%solid_of(k)), self%drawn(self%strips%point_of(k)))
       end do
-      call mirror_field(self, self%stick)
+      call self%faces%copy(self%images%source(:self%images%n) - self%before)
    end subroutine sort_ghosts
 
    ! The speed of a solid that reaches beyond a wall; 0 of others.
@@ -361,12 +371,16 @@ contains
       type(solid_ghosts_t), intent(inout) :: self
       type(box_t), intent(in) :: box             !! at the state's time
       type(state_t), intent(inout) :: state      !! density of the ghosts is set, as is their exchange
+      type(law_t) :: law(2)
       real(dp) :: pass(2)
       integer :: k, source
 
+      call self%faces%turn(self%poses%angle, self%solid_of)
       if (self%images%n == 0) return
       call fill_ghosts(self%images, box, state)
       call mirror_field(self, self%exchange)
+      law = [as_position(box, 1), as_position(box, 2)]
+      call self%faces%mirror(law, self%images%kind(:self%images%n), self%images%source(:self%images%n) - self%before)
       if (.not. any(self%through)) return
       do k = 1, self%images%n
          source = self%images%source(k)

@@ -23,7 +23,8 @@ module model
       logical :: walls = .false.         !! W_s
       logical :: solids = .false.        !! bodies in the fluid; W_solid, W_stat, W_pen
       logical :: sponges = .false.       !! layers that slow the fluid down; Q_sponge
-      logical :: sticky_solids = .false. !! some that the fluid sticks to
+      logical :: rubbing_solids = .false.   !! with viscous forces,
+      logical :: friction_works = .false.   !! and some of them move
       logical :: free_bodies = .false.   !! some that forces move; E_body, Q_damper
       logical :: no_slip = .false.       !! walls that the fluid sticks to
       logical :: periodic = .false.      !! sides
@@ -109,6 +110,7 @@ contains
    !> Which terms act.
    pure type(terms_t) function terms(self)
       class(model_t), intent(in) :: self
+      integer :: k
 
       terms%gravity = self%gravity > 0
       terms%force = self%has_force() .or. self%tank%moves()
@@ -118,11 +120,14 @@ contains
       terms%walls = any(is_wall(self%box%kind))
       terms%solids = self%has_solids()
       terms%sponges = allocated(self%sponges)
-      if (terms%solids) terms%sticky_solids = any(self%solids%no_slip)
       terms%free_bodies = self%has_free_bodies()
       terms%no_slip = any(self%box%kind == no_slip_wall)
       terms%periodic = any(self%box%kind == periodic_side)
       terms%viscosity = self%alpha > 0 .or. self%dynamic
+      terms%rubbing_solids = terms%solids .and. terms%viscosity
+      if (terms%rubbing_solids) then
+         terms%friction_works = any([(self%solids(k)%motion%moves(), k=1, size(self%solids))])
+      end if
       terms%diffusion = self%delta > 0 .or. self%dynamic
       terms%eddies = self%dynamic
       terms%rotation = self%viscosity > 0

@@ -5,6 +5,7 @@
 module solid_terms
    use box, only: box_t
    use candidates, only: block_groups, block_slots
+   use first_sums, only: first_sums_t
    use flow_sums, only: flow_sums_t
    use free_bodies, only: release
    use kinds, only: dp
@@ -13,15 +14,16 @@ module solid_terms
    use motions, only: pose_t
    use neighbours, only: neighbours_t
    use particles, only: particles_t, state_t
+   use renormalisation, only: matrices_t, renormalise
    use solid_ghosts, only: mirror_ghosts, move_ghosts
-   use solid_friction, only: sum_ghost_friction, sum_solid_friction
+   use solid_friction, only: reflected_sums_t, sum_ghost_friction
    use solid_shares, only: find_shares
    use solid_sums, only: ghost_sums_t, sum_ghosts, sum_solids
    use strips, only: group_slots
    implicit none
    private
 
-   public :: meet_solids, add_solids, add_solid_friction, rub_solids, take_solid_work
+   public :: meet_solids, add_solids, add_solid_strain, keep_solid_friction, take_solid_friction, rub_solids, take_solid_work
 
    real(dp), parameter :: least_weight = 1.0e-9_dp   ! sum_f W V_f below which a ghost has no fluid
 
@@ -107,7 +109,7 @@ contains
 
       power = 0
       associate (block => near%ghosts%near(b))
-         if (block%first(block%n_clusters + 1) == 1) return
+         if (.not. near%ghosts%meet(b)) return
          n = nl*block%n_clusters
          call sum_solids(model%kernel, near%ghosts, b, state, solid)
          do k = 1, n
@@ -122,30 +124,47 @@ contains
       sums%force_y(:n) = sums%force_y(:n) + solid%force_y(:n)
    end subroutine add_solids
 
-   !> Adds the friction of solids to the viscous acceleration of a block.
-   pure subroutine add_solid_friction(model, near, p, b)
+   !> Adds what solids reflect to the velocity gradient of a block and to L of that.
+   pure subroutine add_solid_strain(model, n, reflected, sums, l)
       type(model_t), intent(in) :: model
-      type(neighbours_t), intent(in) :: near
-      type(particles_t), intent(inout) :: p   !! visc_x, visc_y of the block change
-      integer, intent(in) :: b
-      real(dp), dimension(block_slots) :: x, y
-      real(dp) :: alpha, factor
-      integer :: i, k
+      integer, intent(in) :: n                          !! slots of the block
+      type(reflected_sums_t), intent(in) :: reflected
+      type(first_sums_t), intent(inout) :: sums         !! u_x, u_y, v_x, v_y change
+      type(matrices_t), intent(inout) :: l              !! becomes L of the fluid and the ghosts
+      real(dp) :: unused
+      integer :: k
 
-      if (.not. any(model%solids%no_slip)) return
-      associate (block => near%ghosts%near(b))
-         if (block%first(block%n_clusters + 1) == 1) return
-         call sum_solid_friction(model%kernel, near%ghosts, b, p%base, x, y)
-         do k = 1, nl*block%n_clusters
-            i = block%before + k
-            alpha = model%alpha
-            if (p%features%eddy) alpha = alpha + p%alpha(i)
-            factor = alpha*model%kernel%h*model%c0*model%kernel%gradient_factor*model%rho0/(model%rho0 + p%base%s(i))
-            p%visc_x(i) = p%visc_x(i) + factor*x(k)
-            p%visc_y(i) = p%visc_y(i) + factor*y(k)
-         end do
-      end associate
-   end subroutine add_solid_friction
+      do k = 1, n
+         call renormalise(model%kernel%gradient_factor, sums%matrix_xx(k) + reflected%matrix_xx(k), &
+                          sums%matrix_xy(k) + reflected%matrix_xy(k), sums%matrix_yy(k) + reflected%matrix_yy(k), &
+                          l%xx(k), l%xy(k), l%yy(k), unused)
+         sums%u_x(k) = sums%u_x(k) + reflected%u_x(k)
+         sums%u_y(k) = sums%u_y(k) + reflected%u_y(k)
+         sums%v_x(k) = sums%v_x(k) + reflected%v_x(k)
+         sums%v_y(k) = sums%v_y(k) + reflected%v_y(k)
+      end do
+   end subroutine add_solid_strain
+
+   !> Keeps the viscous sums over ghosts of a block until its alpha_i are there, in the place of what they become.
+   pure subroutine keep_solid_friction(reflected, p, i0, n)
+      type(reflected_sums_t), intent(in) :: reflected
+      type(particles_t), intent(inout) :: p             !! visc_x, visc_y of the block are set [m3/s]
+      integer, intent(in) :: i0, n                      !! slot before the block's first; slots
+
+      p%visc_x(i0 + 1:i0 + n) = reflected%viscous_x(:n)
+      p%visc_y(i0 + 1:i0 + n) = reflected%viscous_y(:n)
+   end subroutine keep_solid_friction
+
+   !> Adds them to the viscous sums over the fluid, with alpha_i for both of a pair.
+   pure subroutine take_solid_friction(alpha, p, i0, n, viscous_x, viscous_y)
+      real(dp), intent(in) :: alpha                     !! [1] that acts everywhere
+      type(particles_t), intent(in) :: p                !! with the sums that were kept, and alpha_i
+      integer, intent(in) :: i0, n                      !! slot before the block's first; slots
+      real(dp), intent(inout) :: viscous_x(n), viscous_y(n)   !! [m3/s]
+
+      viscous_x = viscous_x + (alpha + p%alpha(i0 + 1:i0 + n))*p%visc_x(i0 + 1:i0 + n)
+      viscous_y = viscous_y + (alpha + p%alpha(i0 + 1:i0 + n))*p%visc_y(i0 + 1:i0 + n)
+   end subroutine take_solid_friction
 
    !> The friction on each ghost, from the base state.
    subroutine rub_solids(model, box, near, p)
@@ -163,7 +182,7 @@ contains
             call sum_ghost_friction(model%kernel, near%ghosts, b, p, near%images, box, model%alpha, sums)
             do k = 1, nl*block%n_clusters
                m = block%before + k - near%ghosts%before
-               near%ghosts%friction(:, m) = factor*near%ghosts%stick(m)*p%base%volume(block%before + k)*sums(:, k)
+               near%ghosts%friction(:, m) = factor*p%base%volume(block%before + k)*sums(:, k)
             end do
          end associate
       end do

@@ -18,7 +18,8 @@ module frozen_terms
    use no_slip_sums, only: sum_jump_gradient
    use particles, only: features_t, particles_t
    use renormalisation, only: freeze_gradient, matrices_t
-   use solid_terms, only: add_solid_friction, add_solids
+   use solid_friction, only: reflected_sums_t, sum_solid_friction
+   use solid_terms, only: add_solid_strain, add_solids, keep_solid_friction, take_solid_friction
    implicit none
    private
 
@@ -54,6 +55,7 @@ contains
       type(block_t), intent(inout) :: block
       type(first_sums_t) :: sums
       type(rates_t) :: rates
+      type(reflected_sums_t) :: reflected
       type(matrices_t) :: l
       integer :: i0, n
 
@@ -69,11 +71,21 @@ contains
       if (p%features%diffusion) call freeze_gradient(model, sums, p, i0, n, l, block%singular)
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
+         if (near%ghosts%meet(b)) then
+            call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
+            call add_solid_strain(model, n, reflected, sums, l)
+            call keep_solid_friction(reflected, p, i0, n)
+         end if
          call freeze_coefficients(model, sums, l, p, i0, n)
          block%largest_alpha = max(block%largest_alpha, largest(n, p%alpha(i0 + 1:i0 + n)))
          block%largest_delta = max(block%largest_delta, &
                                    largest(n, p%delta(i0 + 1:i0 + n)*crowding(model, sums%crowd(:n))))
       else
+         if (near%ghosts%meet(b) .and. p%features%viscosity) then
+            call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
+            sums%viscous_x(:n) = sums%viscous_x(:n) + reflected%viscous_x(:n)
+            sums%viscous_y(:n) = sums%viscous_y(:n) + reflected%viscous_y(:n)
+         end if
          if (p%features%viscosity) call freeze_viscosity(model, model%alpha, sums%viscous_x, sums%viscous_y, p, i0, n)
          if (.not. p%features%diffusion) return
          call begin_density_diffusion(sums, p, i0, n)
@@ -118,6 +130,7 @@ contains
       n = nl*near%blocks(b)%n_clusters
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)
+         if (near%ghosts%meet(b)) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
          call freeze_eddy_terms(model, eddy, p, i0, n)
       else if (p%features%diffusion) then
          call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
@@ -125,7 +138,6 @@ contains
       end if
       if (p%features%no_slip .and. p%features%viscosity) &
          call add_friction(model, near%blocks(b), p, i0, n, block%wall_power)
-      if (near%ghosts%exist() .and. p%features%viscosity) call add_solid_friction(model, near, p, b)
    end subroutine complete_frozen_terms
 
 end module frozen_terms

@@ -58,7 +58,7 @@ contains
       if (.not. allocated(near%ghosts%free)) return
       has = model%terms()
       ! Even if forces on ghosts are frozen, their moment is not: ghosts give it its power where they are.
-      if (has%sticky_solids .and. has%viscosity) call add_drag(model, near)
+      if (has%friction_works) call add_drag(model, near)
       weight = model%integrator%weight(moment%stage)*moment%dt
       do k = 1, size(self%poses)
          associate (body => model%solids(k)%body, pose => self%poses(k))

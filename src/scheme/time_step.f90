@@ -369,7 +369,7 @@ contains
             near%division%waiting = near%division%waiting + wall_seconds() - started
          end if
          if (solids_are_due(near, part)) then
-            if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
+            if (has%friction_works) call rub_solids(model, moment%box, near, p)
             call take_solid_work(near, p%base, model%integrator%weight(1)*moment%dt, begins=.true.)
             call solids%take_forces(model, near, moment)
          end if
@@ -472,7 +472,7 @@ contains
       call begin_fill(near%images, model%box, p)
       call finish_fill(near%images, model%box, p)
       has = model%terms()
-      if (has%sticky_solids .and. has%viscosity) call rub_solids(model, moment%box, near, p)
+      if (has%friction_works) call rub_solids(model, moment%box, near, p)
       call take_solid_work(near, p%base, model%integrator%weight(moment%stage)*moment%dt, begins=.false.)
       call solids%take_forces(model, near, moment)
       !$omp parallel do default(none) shared(model, p, near, of_stage) schedule(dynamic)
