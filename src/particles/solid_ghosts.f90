@@ -41,6 +41,7 @@ module solid_ghosts
       integer :: n_blocks = 0
       type(shared_candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
       type(shared_candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
+      logical, allocatable :: meets(:)             !! (blocks of the fluid) some are; beside the lists, most of which are empty
       ! By slot, counted from their first:
       integer, allocatable :: solid_of(:)          !! (n_slots) the ghost's solid; 0 for a dummy
       integer, allocatable :: face(:)              !! (n_slots and images) the face that it is for; 0: for all
@@ -418,11 +419,14 @@ contains
          self%near(b)%before = blocks(b)%before
          self%near(b)%n_clusters = blocks(b)%n_clusters
          call list_block(self%near(b)%candidates_t, self%strips, self%images%strips, p, predicted, times(2), support)
+         self%meets(b) = self%near(b)%first(self%near(b)%n_clusters + 1) > 1
+         if (self%shared) self%near(b)%all = self%near(b)%candidates_t
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, self%n_blocks
          call list_block(self%fluid(b)%candidates_t, strips, images, p, predicted, times(2), support)
+         if (self%shared) self%fluid(b)%all = self%fluid(b)%candidates_t
       end do
       !$omp end do
       !$omp end parallel
@@ -437,10 +441,10 @@ contains
       n_groups = self%n_slots/group_slots
       self%n_blocks = (n_groups + block_groups - 1)/block_groups
       if (allocated(self%near)) then
-         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid)
+         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid, self%meets)
       end if
       if (.not. allocated(self%near)) then
-         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8))
+         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8), self%meets(n_near + n_near/8))
          call set_parts(self%near)
          call set_parts(self%fluid)
       end if

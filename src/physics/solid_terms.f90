@@ -107,7 +107,7 @@ contains
 
       power = 0
       associate (block => near%ghosts%near(b))
-         if (block%first(block%n_clusters + 1) == 1) return
+         if (.not. near%ghosts%meets(b)) return
          n = nl*block%n_clusters
          call sum_solids(model%kernel, near%ghosts, b, state, solid)
          do k = 1, n
@@ -134,7 +134,7 @@ contains
 
       if (.not. any(model%solids%no_slip)) return
       associate (block => near%ghosts%near(b))
-         if (block%first(block%n_clusters + 1) == 1) return
+         if (.not. near%ghosts%meets(b)) return
          call sum_solid_friction(model%kernel, near%ghosts, b, p%base, x, y)
          do k = 1, nl*block%n_clusters
             i = block%before + k
