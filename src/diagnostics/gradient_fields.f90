@@ -61,7 +61,7 @@ contains
             if (p%features%no_slip) call sum_jump_gradient(model%kernel, block, p, i0, sums)
             call take_fields(model%kernel%gradient_factor, sums, nl*block%n_clusters, fields%vorticity(i0 + 1:), &
                              fields%strain(i0 + 1:))
-            if (near%ghosts%meet(b)) call take_strain(model, near, b, p, sums, fields%strain(i0 + 1:))
+            if (near%ghosts%are_near(b)) call take_strain(model, near, b, p, sums, fields%strain(i0 + 1:))
          end associate
       end do
       !$omp end parallel do

@@ -28,13 +28,15 @@ module candidates
       procedure :: bytes => candidates_bytes
    end type candidates_t
 
-   !> Lists between the fluid and ghosts of solids, and how each pair acts.
+   !> Lists between the fluid and ghosts of solids, and how each pair acts. Of thin solids only what acts in a step.
    type, extends(candidates_t) :: shared_candidates_t
+      type(candidates_t) :: all                     !! of thin solids
       logical :: shared(block_clusters) = .false.   !! some pairs of the cluster may not act
       real(dp), allocatable :: part(:, :)           !! (nl, 0:places in `slot`) acts, gives or 0; place 0: acts
    contains
       procedure :: bytes => shared_candidates_bytes
       procedure :: parts
+      procedure :: choose
    end type shared_candidates_t
 
    real(dp), parameter, public :: gives = 1   !! of a pair: the ghost has its pressure also of the particle
@@ -53,7 +55,7 @@ contains
    pure elemental integer(i8) function shared_candidates_bytes(self) result(bytes)
       class(shared_candidates_t), intent(in) :: self
 
-      bytes = self%candidates_t%bytes()
+      bytes = self%candidates_t%bytes() + self%all%bytes()
       if (allocated(self%part)) bytes = bytes + size(self%part, kind=i8)*storage_size(self%part)/8
    end function shared_candidates_bytes
 
@@ -66,6 +68,34 @@ contains
       parts = 0
       if (self%shared(c)) parts = [self%first(c), self%first(c + 1) - 1]
    end function parts
+
+   !> Takes from all lists that of a cluster, after those of the clusters before it, but what does not act on any of its lanes.
+   pure subroutine choose(self, c, shared, part)
+      class(shared_candidates_t), intent(inout) :: self
+      integer, intent(in) :: c             !! cluster
+      logical, intent(in) :: shared        !! else all pairs act
+      real(dp), intent(in) :: part(:, :)   !! (nl, places in its list and more) only then
+      integer :: k, m, n
+
+      if (shared .and. ubound(self%part, 2) < size(self%slot)) then
+         deallocate (self%part)
+         allocate (self%part(nl, 0:size(self%slot)), source=acts)
+      end if
+      self%shared(c) = shared
+      n = self%first(c) - 1
+      self%first_image(c) = self%first(c)
+      do k = self%all%first(c), self%all%first(c + 1) - 1
+         if (shared) then
+            m = k - self%all%first(c) + 1
+            if (.not. any(part(:, m) > 0)) cycle
+            self%part(:, n + 1) = part(:, m)
+         end if
+         n = n + 1
+         self%slot(n) = self%all%slot(k)
+         if (k < self%all%first_image(c)) self%first_image(c) = n + 1
+      end do
+      self%first(c + 1) = n + 1
+   end subroutine choose
 
    !> Where a group's particles are predicted, how fast they are, and their slack.
    pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)

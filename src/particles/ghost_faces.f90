@@ -2,7 +2,8 @@
 !!
 !! Source: ours (docs/equations.md, Viscosity at solids).
 module ghost_faces
-   use image_laws, only: law_t
+   use box, only: box_t
+   use image_laws, only: as_position, law_t
    use kinds, only: dp, i8
    use motions, only: turn
    use solid_cells, only: cell_t
@@ -91,11 +92,13 @@ contains
    end subroutine copy
 
    !> Gives images the mirrored normals of their sources.
-   pure subroutine mirror(self, law, kind, source)
+   pure subroutine mirror(self, box, kind, source)
       class(ghost_faces_t), intent(inout) :: self
-      type(law_t), intent(in) :: law(2)            !! of positions along x and y
+      type(box_t), intent(in) :: box               !! at any time
       integer, intent(in) :: kind(:), source(:)    !! (images) kinds, slots
+      type(law_t) :: law(2)
 
+      law = [as_position(box, 1), as_position(box, 2)]
       self%normal_x(self%n_slots + 1:) = law(1)%factor(kind)*self%normal_x(source)
       self%normal_y(self%n_slots + 1:) = law(2)%factor(kind)*self%normal_y(source)
    end subroutine mirror

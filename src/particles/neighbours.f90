@@ -425,9 +425,8 @@ contains
                   if (i > n_held) i = self%images%source(i - n_held)
                   outer(b) = outer(b) .or. i > n_own
                end do
-               ! Ghosts of solids have their density of copies.
-               if (self%ghosts%exist()) outer(b) = outer(b) .or. self%ghosts%near(b)%first(block%n_clusters + 1) > 1 &
-                                                   .or. allocated(self%ghosts%free)   ! where these end, their ghosts say
+               ! Ghosts of solids have their density of copies. Where free ones end, their ghosts say.
+               if (self%ghosts%exist()) outer(b) = outer(b) .or. self%ghosts%meets(b) .or. allocated(self%ghosts%free)
             end associate
          end do
          !$omp end parallel do

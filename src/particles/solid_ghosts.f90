@@ -42,6 +42,7 @@ module solid_ghosts
       integer :: n_blocks = 0
       type(shared_candidates_t), allocatable :: fluid(:)  !! (n_blocks) of ghosts: slots of the fluid near each cluster
       type(shared_candidates_t), allocatable :: near(:)   !! (blocks of the fluid) ghosts and their images near each cluster
+      logical, allocatable :: meets(:)             !! (blocks of the fluid) some are; beside the lists, most of which are empty
       ! By slot, counted from their first:
       integer, allocatable :: solid_of(:)          !! (n_slots) the ghost's solid; 0 for a dummy
       integer, allocatable :: face(:)              !! (n_slots and images) the face that it is for; 0: for all
@@ -59,7 +60,7 @@ module solid_ghosts
       real(dp), allocatable :: way(:, :)           !! [m] (2, n_slots) from there to where the ghost is in a periodic box
    contains
       procedure :: exist
-      procedure :: meet
+      procedure :: are_near
       procedure :: signs
       procedure :: passes
       procedure :: bytes => ghosts_bytes
@@ -75,13 +76,13 @@ contains
    end function exist
 
    !> Whether some may be near a block of the fluid.
-   pure logical function meet(self, b)
+   pure logical function are_near(self, b)
       class(solid_ghosts_t), intent(in) :: self
       integer, intent(in) :: b   !! its number
 
-      meet = self%exist()
-      if (meet) meet = self%near(b)%first(self%near(b)%n_clusters + 1) > 1
-   end function meet
+      are_near = self%exist()
+      if (are_near) are_near = self%meets(b)
+   end function are_near
 
    !> -1 for axes along which the ghost in a slot is mirrored, else 1.
    pure function signs(self, box, slot)
@@ -188,7 +189,8 @@ contains
       call list_images(self%images, then, p, times(1), times(2), reach, self%before)
       call fill_ghosts(self%images, box, p%base)
       call measure_strips(self%images%strips, p%base)
-      call resize(self%exchange, self%n_slots + self%images%n)
+      if (allocated(self%exchange)) deallocate (self%exchange)
+      allocate (self%exchange(self%n_slots + self%images%n), source=0.0_dp)
       call self%faces%make_room(self%n_slots, self%images%n)
       call set_faces(self)
       do k = 1, self%n_slots
@@ -290,17 +292,6 @@ contains
       end do
    end subroutine set_faces
 
-   subroutine resize(array, n)
-      real(dp), allocatable, intent(inout) :: array(:)
-      integer, intent(in) :: n
-
-      if (allocated(array)) then
-         if (size(array) == n) return
-         deallocate (array)
-      end if
-      allocate (array(n), source=0.0_dp)
-   end subroutine resize
-
    !> Puts the ghosts where they are in some poses of the solids, with their velocity there.
    subroutine move_ghosts(self, solids, poses, box, state)
       type(solid_ghosts_t), intent(inout) :: self
@@ -371,7 +362,6 @@ contains
       type(solid_ghosts_t), intent(inout) :: self
       type(box_t), intent(in) :: box             !! at the state's time
       type(state_t), intent(inout) :: state      !! density of the ghosts is set, as is their exchange
-      type(law_t) :: law(2)
       real(dp) :: pass(2)
       integer :: k, source
 
@@ -379,8 +369,7 @@ contains
       if (self%images%n == 0) return
       call fill_ghosts(self%images, box, state)
       call mirror_field(self, self%exchange)
-      law = [as_position(box, 1), as_position(box, 2)]
-      call self%faces%mirror(law, self%images%kind(:self%images%n), self%images%source(:self%images%n) - self%before)
+      call self%faces%mirror(box, self%images%kind(:self%images%n), self%images%source(:self%images%n) - self%before)
       if (.not. any(self%through)) return
       do k = 1, self%images%n
          source = self%images%source(k)
@@ -432,11 +421,14 @@ contains
          self%near(b)%before = blocks(b)%before
          self%near(b)%n_clusters = blocks(b)%n_clusters
          call list_block(self%near(b)%candidates_t, self%strips, self%images%strips, p, predicted, times(2), support)
+         self%meets(b) = self%near(b)%first(self%near(b)%n_clusters + 1) > 1
+         if (self%shared) self%near(b)%all = self%near(b)%candidates_t
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, self%n_blocks
          call list_block(self%fluid(b)%candidates_t, strips, images, p, predicted, times(2), support)
+         if (self%shared) self%fluid(b)%all = self%fluid(b)%candidates_t
       end do
       !$omp end do
       !$omp end parallel
@@ -451,10 +443,10 @@ contains
       n_groups = self%n_slots/group_slots
       self%n_blocks = (n_groups + block_groups - 1)/block_groups
       if (allocated(self%near)) then
-         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid)
+         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid, self%meets)
       end if
       if (.not. allocated(self%near)) then
-         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8))
+         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8), self%meets(n_near + n_near/8))
          call set_parts(self%near)
          call set_parts(self%fluid)
       end if

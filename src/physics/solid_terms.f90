@@ -109,7 +109,7 @@ contains
 
       power = 0
       associate (block => near%ghosts%near(b))
-         if (.not. near%ghosts%meet(b)) return
+         if (.not. near%ghosts%meets(b)) return
          n = nl*block%n_clusters
          call sum_solids(model%kernel, near%ghosts, b, state, solid)
          do k = 1, n

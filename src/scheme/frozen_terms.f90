@@ -71,7 +71,7 @@ contains
       if (p%features%diffusion) call freeze_gradient(model, sums, p, i0, n, l, block%singular)
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
-         if (near%ghosts%meet(b)) then
+         if (near%ghosts%are_near(b)) then
             call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
             call add_solid_strain(model, n, reflected, sums, l)
             call keep_solid_friction(reflected, p, i0, n)
@@ -81,7 +81,7 @@ contains
          block%largest_delta = max(block%largest_delta, &
                                    largest(n, p%delta(i0 + 1:i0 + n)*crowding(model, sums%crowd(:n))))
       else
-         if (near%ghosts%meet(b) .and. p%features%viscosity) then
+         if (near%ghosts%are_near(b) .and. p%features%viscosity) then
             call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
             sums%viscous_x(:n) = sums%viscous_x(:n) + reflected%viscous_x(:n)
             sums%viscous_y(:n) = sums%viscous_y(:n) + reflected%viscous_y(:n)
@@ -130,7 +130,7 @@ contains
       n = nl*near%blocks(b)%n_clusters
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)
-         if (near%ghosts%meet(b)) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
+         if (near%ghosts%are_near(b)) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
          call freeze_eddy_terms(model, eddy, p, i0, n)
       else if (p%features%diffusion) then
          call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
