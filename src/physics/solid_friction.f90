@@ -83,7 +83,7 @@ contains
             call pair(dx, dy, inverse_support, volume(j), g, inverse_2)
             call reflect(stick, slip, normal_x, normal_y, dx, dy, px, py)
             call reflect(stick, slip, normal_x, normal_y, 2*(u(j) - ui(l)), 2*(v(j) - vi(l)), pu, pv)
-            g = merge(g*max(0.0_dp, part(l, m) - gives), 0.0_dp, normal_x*dx + normal_y*dy < -depth)
+            g = g*max(0.0_dp, part(l, m) - gives)*max(0.0_dp, sign(1.0_dp, -depth - (normal_x*dx + normal_y*dy)))
             pi_ij = g*(pu*px + pv*py)*inverse_2
             ax(l) = ax(l) + pi_ij*px
             ay(l) = ay(l) + pi_ij*py
@@ -154,7 +154,7 @@ contains
                   m = i - ghosts%before
                   dx = state%x(i) - state%x(j)
                   dy = state%y(i) - state%y(j)
-                  if (.not. faces%normal_x(m)*dx + faces%normal_y(m)*dy < -faces%depth(m)) cycle
+                  if (.not. -faces%depth(m) - (faces%normal_x(m)*dx + faces%normal_y(m)*dy) >= 0) cycle
                   call pair(dx, dy, kernel%inverse_support, state%volume(j), g, inverse_2)
                   if (.not. g > 0) cycle
                   if (block%part(l - (c - 1)*nl, min(k, parts(2))) < acts) cycle

@@ -27,8 +27,12 @@ contains
       real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), inertia(2), lifted
       integer :: i, k
 
-      lower = minval(reshape([(obstacles(k)%lower, k=1, size(obstacles))], [2, size(obstacles)]), 2)
-      upper = maxval(reshape([(obstacles(k)%upper, k=1, size(obstacles))], [2, size(obstacles)]), 2)
+      lower = huge(lower)
+      upper = -huge(upper)
+      do k = 1, size(obstacles)
+         lower = min(lower, obstacles(k)%lower)
+         upper = max(upper, obstacles(k)%upper)
+      end do
       do i = i0 + 1, i0 + n
          before = [p%next%x(i), p%next%y(i)]
          if (any(before < lower .or. before > upper) .or. p%id(i) == 0) cycle
