@@ -134,6 +134,7 @@ contains
       real(dp) :: unused
       integer :: k
 
+      !$omp simd private(unused)
       do k = 1, n
          call renormalise(model%kernel%gradient_factor, sums%matrix_xx(k) + reflected%matrix_xx(k), &
                           sums%matrix_xy(k) + reflected%matrix_xy(k), sums%matrix_yy(k) + reflected%matrix_yy(k), &

@@ -35,6 +35,7 @@ module blocks
       real(dp) :: largest_pi = 0
       real(dp) :: largest_alpha = 0  !! alpha_i of the dynamic model
       real(dp) :: largest_delta = 0  !! delta_i, or delta, times crowding
+      logical :: rubs = .false.      !! solids were near in the first pass: lists that are made anew after it may bring some
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0

@@ -71,7 +71,8 @@ contains
       if (p%features%diffusion) call freeze_gradient(model, sums, p, i0, n, l, block%singular)
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
-         if (near%ghosts%are_near(b)) then
+         block%rubs = near%ghosts%are_near(b)
+         if (block%rubs) then
             call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
             call add_solid_strain(model, n, reflected, sums, l)
             call keep_solid_friction(reflected, p, i0, n)
@@ -130,7 +131,7 @@ contains
       n = nl*near%blocks(b)%n_clusters
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)
-         if (near%ghosts%are_near(b)) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
+         if (block%rubs) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
          call freeze_eddy_terms(model, eddy, p, i0, n)
       else if (p%features%diffusion) then
          call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
