@@ -168,13 +168,13 @@ contains
    end subroutine check_overlaps
 
    !> Friction is explicit: in a step it must not turn the motion of a light body round. That of fluid at rest on an edge, per
-   !! length and speed, is about 3 mu/h (measured).
+   !! length and speed, is about 3 mu/h (measured); of that across the edge if the fluid slips along it.
    subroutine check_friction(draft, number)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: number
       real(dp), parameter :: per_edge = 3, largest = 1   ! [mu/h]; change of speed in a step, over the speed
       type(rigid_body_t) :: body
-      real(dp), allocatable :: arm(:, :), next(:, :), length(:)
+      real(dp), allocatable :: arm(:, :), next(:, :), length(:), normal(:, :), lever(:, :)
       real(dp) :: rubbed(3), rate, step
 
       associate (scene => draft%scene, solid => draft%scene%solids(number), h => draft%scene%smoothing_length())
@@ -184,7 +184,15 @@ contains
          arm = arm - spread(solid%pivot, 2, size(arm, 2))
          next = cshift(arm, 1, 2)
          length = norm2(next - arm, 1)
-         rubbed = [sum(length), sum(length), sum(length*sum(arm**2 + arm*next + next**2, 1))/3]
+         if (solid%surface == 'no_slip') then
+            rubbed = [sum(length), sum(length), sum(length*sum(arm**2 + arm*next + next**2, 1))/3]
+         else
+            normal = reshape([next(2, :) - arm(2, :), arm(1, :) - next(1, :)], shape(arm), order=[2, 1])
+            normal = normal/spread(max(length, tiny(length)), 1, 2)
+            lever = reshape([cross(arm, normal), cross(next, normal)], [size(arm, 2), 2])
+            rubbed = [sum(length*normal(1, :)**2), sum(length*normal(2, :)**2), &
+                      sum(length*(lever(:, 1)**2 + lever(:, 1)*lever(:, 2) + lever(:, 2)**2))/3]
+         end if
          step = scene%time%cfl*h/scene%fluid%sound_speed
          rate = maxval(merge(rubbed/body%masses(), 0.0_dp, body%moves)) &
                 *per_edge/h*scene%alpha_total()*scene%fluid%density*scene%fluid%sound_speed*h/k_2d
@@ -193,6 +201,14 @@ contains
             //' s: make it heavier, or alpha or cfl smaller')
       end associate
    end subroutine check_friction
+
+   ! a x b of each column.
+   pure function cross(a, b)
+      real(dp), intent(in) :: a(:, :), b(:, :)   ! (2, n)
+      real(dp) :: cross(size(a, 2))
+
+      cross = a(1, :)*b(2, :) - a(2, :)*b(1, :)
+   end function cross
 
    !> A shape must have an inside.
    subroutine check_shape(draft, number, well)
