@@ -7,7 +7,7 @@ module solid_check
    use kinds, only: dp
    use motion_check, only: compare_with_sound, warn_of_rest
    use name_table, only: name_table_t
-   use polygons, only: find_crossing, is_inside, narrowest, polygon_area, regular_polygon
+   use polygons, only: edge_normal, find_crossing, is_inside, narrowest, polygon_area, regular_polygon
    use scanner, only: letters
    use settings, only: body_settings, is_wall, side_names
    use rigid_bodies, only: rigid_body_t
@@ -174,25 +174,25 @@ contains
       integer, intent(in) :: number
       real(dp), parameter :: per_edge = 3, largest = 1   ! [mu/h]; change of speed in a step, over the speed
       type(rigid_body_t) :: body
-      real(dp), allocatable :: arm(:, :), next(:, :), length(:), normal(:, :), lever(:, :)
-      real(dp) :: rubbed(3), rate, step
+      real(dp), allocatable :: arm(:, :)
+      real(dp) :: normal(2), along(2), rubbed(3), rate, step
+      integer :: k
 
       associate (scene => draft%scene, solid => draft%scene%solids(number), h => draft%scene%smoothing_length())
          if (solid%motion /= 'free' .or. .not. draft%notes%clean('fluid time scene model solid')) return
          body = body_of(solid)
          arm = starting_outline(scene, solid)
          arm = arm - spread(solid%pivot, 2, size(arm, 2))
-         next = cshift(arm, 1, 2)
-         length = norm2(next - arm, 1)
-         if (solid%surface == 'no_slip') then
-            rubbed = [sum(length), sum(length), sum(length*sum(arm**2 + arm*next + next**2, 1))/3]
-         else
-            normal = reshape([next(2, :) - arm(2, :), arm(1, :) - next(1, :)], shape(arm), order=[2, 1])
-            normal = normal/spread(max(length, tiny(length)), 1, 2)
-            lever = reshape([cross(arm, normal), cross(next, normal)], [size(arm, 2), 2])
-            rubbed = [sum(length*normal(1, :)**2), sum(length*normal(2, :)**2), &
-                      sum(length*(lever(:, 1)**2 + lever(:, 1)*lever(:, 2) + lever(:, 2)**2))/3]
-         end if
+         rubbed = 0
+         do k = 1, size(arm, 2)
+            normal = edge_normal(arm, k)
+            along = [-normal(2), normal(1)]
+            associate (a => arm(:, k), b => arm(:, mod(k, size(arm, 2)) + 1))
+               rubbed = rubbed + norm2(b - a)*[normal**2, mean_square(dot_product(a, along), dot_product(b, along))]
+               if (solid%surface == 'no_slip') &
+                  rubbed = rubbed + norm2(b - a)*[along**2, mean_square(dot_product(a, normal), dot_product(b, normal))]
+            end associate
+         end do
          step = scene%time%cfl*h/scene%fluid%sound_speed
          rate = maxval(merge(rubbed/body%masses(), 0.0_dp, body%moves)) &
                 *per_edge/h*scene%alpha_total()*scene%fluid%density*scene%fluid%sound_speed*h/k_2d
@@ -202,13 +202,12 @@ contains
       end associate
    end subroutine check_friction
 
-   ! a x b of each column.
-   pure function cross(a, b)
-      real(dp), intent(in) :: a(:, :), b(:, :)   ! (2, n)
-      real(dp) :: cross(size(a, 2))
+   ! Mean square of what grows evenly from one value to another.
+   pure real(dp) function mean_square(one, other)
+      real(dp), intent(in) :: one, other
 
-      cross = a(1, :)*b(2, :) - a(2, :)*b(1, :)
-   end function cross
+      mean_square = (one**2 + one*other + other**2)/3
+   end function mean_square
 
    !> A shape must have an inside.
    subroutine check_shape(draft, number, well)

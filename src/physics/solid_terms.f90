@@ -23,7 +23,7 @@ module solid_terms
    implicit none
    private
 
-   public :: meet_solids, add_solids, add_solid_strain, keep_solid_friction, take_solid_friction, rub_solids, take_solid_work
+   public :: meet_solids, add_solids, add_solid_strain, rub_solids, take_solid_work
 
    real(dp), parameter :: least_weight = 1.0e-9_dp   ! sum_f W V_f below which a ghost has no fluid
 
@@ -145,27 +145,6 @@ contains
          sums%v_y(k) = sums%v_y(k) + reflected%v_y(k)
       end do
    end subroutine add_solid_strain
-
-   !> Keeps the viscous sums over ghosts of a block until its alpha_i are there, in the place of what they become.
-   pure subroutine keep_solid_friction(reflected, p, i0, n)
-      type(reflected_sums_t), intent(in) :: reflected
-      type(particles_t), intent(inout) :: p             !! visc_x, visc_y of the block are set [m3/s]
-      integer, intent(in) :: i0, n                      !! slot before the block's first; slots
-
-      p%visc_x(i0 + 1:i0 + n) = reflected%viscous_x(:n)
-      p%visc_y(i0 + 1:i0 + n) = reflected%viscous_y(:n)
-   end subroutine keep_solid_friction
-
-   !> Adds them to the viscous sums over the fluid, with alpha_i for both of a pair.
-   pure subroutine take_solid_friction(alpha, p, i0, n, viscous_x, viscous_y)
-      real(dp), intent(in) :: alpha                     !! [1] that acts everywhere
-      type(particles_t), intent(in) :: p                !! with the sums that were kept, and alpha_i
-      integer, intent(in) :: i0, n                      !! slot before the block's first; slots
-      real(dp), intent(inout) :: viscous_x(n), viscous_y(n)   !! [m3/s]
-
-      viscous_x = viscous_x + (alpha + p%alpha(i0 + 1:i0 + n))*p%visc_x(i0 + 1:i0 + n)
-      viscous_y = viscous_y + (alpha + p%alpha(i0 + 1:i0 + n))*p%visc_y(i0 + 1:i0 + n)
-   end subroutine take_solid_friction
 
    !> The friction on each ghost, from the base state.
    subroutine rub_solids(model, box, near, p)

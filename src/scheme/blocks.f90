@@ -27,6 +27,7 @@ module blocks
       real(dp) :: solid_power(block_groups) = 0   !! [W/m] that solids give in a stage, friction left out,
       real(dp) :: solid_work(block_groups) = 0    !! [J/m] and in the step: part of the walls' work
       real(dp) :: sponge_work(block_groups) = 0   !! [J/m] by sponge layers, <= 0
+      real(dp), allocatable :: rubbed(:, :)       !! [m3/s] (slots, 2) viscous sums over ghosts that the first pass had near
       real(dp), allocatable :: struck(:, :)       !! (4, solids) of particles put back: impulse on it, moment of that, their energy
       real(dp) :: speed_2 = 0        !! max |u|**2
       real(dp) :: pressure = 0       !! max p/rho
@@ -35,7 +36,6 @@ module blocks
       real(dp) :: largest_pi = 0
       real(dp) :: largest_alpha = 0  !! alpha_i of the dynamic model
       real(dp) :: largest_delta = 0  !! delta_i, or delta, times crowding
-      logical :: rubs = .false.      !! solids were near in the first pass: lists that are made anew after it may bring some
       integer :: crossings = 0
       integer :: singular = 0
       integer :: lost_slot = 0

@@ -19,7 +19,7 @@ module frozen_terms
    use particles, only: features_t, particles_t
    use renormalisation, only: freeze_gradient, matrices_t
    use solid_friction, only: reflected_sums_t, sum_solid_friction
-   use solid_terms, only: add_solid_strain, add_solids, keep_solid_friction, take_solid_friction
+   use solid_terms, only: add_solid_strain, add_solids
    implicit none
    private
 
@@ -71,11 +71,10 @@ contains
       if (p%features%diffusion) call freeze_gradient(model, sums, p, i0, n, l, block%singular)
       if (model%dynamic) then
          if (p%features%no_slip) call sum_jump_gradient(model%kernel, near%blocks(b), p, i0, sums)
-         block%rubs = near%ghosts%are_near(b)
-         if (block%rubs) then
+         if (near%ghosts%are_near(b)) then
             call sum_solid_friction(model%kernel, near%ghosts, b, p%base, reflected)
             call add_solid_strain(model, n, reflected, sums, l)
-            call keep_solid_friction(reflected, p, i0, n)
+            block%rubbed = reshape([reflected%viscous_x(:n), reflected%viscous_y(:n)], [n, 2])
          end if
          call freeze_coefficients(model, sums, l, p, i0, n)
          block%largest_alpha = max(block%largest_alpha, largest(n, p%alpha(i0 + 1:i0 + n)))
@@ -131,7 +130,10 @@ contains
       n = nl*near%blocks(b)%n_clusters
       if (model%dynamic) then
          call sum_eddy(model%kernel, near%blocks(b), p, model%alpha, i0, eddy)
-         if (block%rubs) call take_solid_friction(model%alpha, p, i0, n, eddy%viscous_x, eddy%viscous_y)
+         if (allocated(block%rubbed)) then   ! alpha_i is for both of a pair
+            eddy%viscous_x(:n) = eddy%viscous_x(:n) + (model%alpha + p%alpha(i0 + 1:i0 + n))*block%rubbed(:, 1)
+            eddy%viscous_y(:n) = eddy%viscous_y(:n) + (model%alpha + p%alpha(i0 + 1:i0 + n))*block%rubbed(:, 2)
+         end if
          call freeze_eddy_terms(model, eddy, p, i0, n)
       else if (p%features%diffusion) then
          call sum_diffusion(model%kernel, near%blocks(b), p, i0, neighbour_gradient)
