@@ -44,18 +44,24 @@ module gradient_fields
 
 contains
 
-   !> One pass over all pairs.
-   subroutine measure_gradients(model, p, near, fields)
+   !> One pass over all pairs, or over those of blocks near solids.
+   subroutine measure_gradients(model, p, near, fields, near_solids)
       type(model_t), intent(in) :: model
       type(particles_t), intent(in) :: p
       type(neighbours_t), intent(in) :: near   !! of the base state
       type(gradient_fields_t), intent(out) :: fields
+      logical, intent(in), optional :: near_solids   !! there only: elsewhere the fields are not set
       type(first_sums_t) :: sums
+      logical :: all_blocks
       integer :: b
 
+      all_blocks = .true.
+      if (present(near_solids)) all_blocks = .not. near_solids
+
       allocate (fields%vorticity(p%n_own), fields%strain(p%n_own))
-      !$omp parallel do default(none) shared(model, p, near, fields) private(sums) schedule(dynamic)
+      !$omp parallel do default(none) shared(model, p, near, fields, all_blocks) private(sums) schedule(dynamic)
       do b = 1, near%n_blocks
+         if (.not. (all_blocks .or. near%ghosts%are_near(b))) cycle
          associate (block => near%blocks(b), i0 => near%blocks(b)%before)
             call sum_first(pass_dynamic, model%kernel, block, p, near%images%source, i0, sums)
             if (p%features%no_slip) call sum_jump_gradient(model%kernel, block, p, i0, sums)
@@ -104,15 +110,23 @@ contains
       end do
    end subroutine take_strain
 
-   !> alpha_i and delta_i of the dynamic model at the base state, of all slots: those of the last step are of another one.
-   subroutine renew_coefficients(model, near, p)
+   !> alpha_i and delta_i of the dynamic model at the base state, of all slots, or of those in blocks near solids: those of the last
+   !! step are of another one.
+   subroutine renew_coefficients(model, near, p, near_solids)
       type(model_t), intent(in) :: model
       type(neighbours_t), intent(inout) :: near   !! of the base state
       type(particles_t), intent(inout) :: p       !! alpha and delta are set
+      logical, intent(in) :: near_solids
       type(gradient_fields_t) :: fields
+      integer :: b
 
-      call measure_gradients(model, p, near, fields)
-      call eddy_coefficients(model, fields%strain, p%alpha(:p%n_own), p%delta(:p%n_own))
+      call measure_gradients(model, p, near, fields, near_solids)
+      do b = 1, near%n_blocks
+         if (near_solids .and. .not. near%ghosts%are_near(b)) cycle
+         associate (i1 => near%blocks(b)%before + 1, i2 => near%blocks(b)%before + nl*near%blocks(b)%n_clusters)
+            call eddy_coefficients(model, fields%strain(i1:i2), p%alpha(i1:i2), p%delta(i1:i2))
+         end associate
+      end do
       call fill_ghosts(near%images, as_scalar, p%alpha)
       call fill_ghosts(near%images, as_scalar, p%delta)
    end subroutine renew_coefficients

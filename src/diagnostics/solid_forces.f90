@@ -49,7 +49,7 @@ contains
 
       has = model%terms()
       if (has%rubbing_solids) then
-         if (model%dynamic) call renew_coefficients(model, near, p)
+         if (model%dynamic) call renew_coefficients(model, near, p, near_solids=.true.)
          call rub_solids(model, box, near, p)
       end if
       call add_ghosts(model, near, p, sums)

@@ -43,7 +43,7 @@ contains
 
       has = model%terms()
       rubs = has%no_slip .and. has%viscosity
-      if (rubs .and. model%dynamic) call renew_coefficients(model, near, p)
+      if (rubs .and. model%dynamic) call renew_coefficients(model, near, p, near_solids=.false.)
       allocate (table(8, p%n_own/group_slots), source=0.0_dp)
       !$omp parallel do default(none) shared(model, near, p, rubs, table) schedule(dynamic)
       do b = 1, near%n_blocks

@@ -136,6 +136,15 @@ contains
       integer :: begin(group_clusters), own_end(group_clusters), listed(group_clusters)
       integer :: c, m, room, n_here
 
+      self%n_clusters = group*group_clusters
+      if (own%n + images%n == 0) then
+         call make_room(self%slot, 0, 0)
+         do c = self%n_clusters - group_clusters + 1, self%n_clusters
+            self%first_image(c) = self%first(c)
+            self%first(c + 1) = self%first(c)
+         end do
+         return
+      end if
       room = sum(own%last(:own%n) - own%first(:own%n) + 1) + sum(images%last(:images%n) - images%first(:images%n) + 1) &
              + group_slots
       call make_room(found, 0, group_clusters*room)
@@ -146,7 +155,6 @@ contains
       own_end = listed
       call pick(images, n, x, y, u, v, slack, x(i0 + 1), y(i0 + 1), extent%slowest, extent%fastest, support + extent%slack, &
                 travel, size(found), found, listed)
-      self%n_clusters = group*group_clusters
       do m = 1, group_clusters
          c = (group - 1)*group_clusters + m
          n_here = listed(m) - begin(m)

@@ -23,6 +23,7 @@ module ghost_faces
       !> [m] of the ghost behind the face: particles that are not farther before the ghost are not before the face, and do not see
       !! it. Large where none does, -large where all do.
       real(dp), allocatable :: depth(:)
+      logical :: are_turned = .false.                     !! since there was room made
       integer, private :: n_slots = 0
       real(dp), allocatable, private :: drawn(:, :)       ! (2, n_slots) normals before the solids' motion
    contains
@@ -42,6 +43,7 @@ contains
       integer, intent(in) :: n_slots, n_images
 
       if (allocated(self%stick)) deallocate (self%stick, self%normal_x, self%normal_y, self%depth, self%drawn)
+      self%are_turned = .false.
       self%n_slots = n_slots
       associate (n => n_slots + n_images)
          allocate (self%stick(n), self%normal_x(n), self%normal_y(n), self%drawn(2, n_slots), source=0.0_dp)
@@ -70,6 +72,7 @@ contains
       real(dp) :: axis(2, size(angle))      ! direction of x, as drawn
       integer :: k
 
+      self%are_turned = .true.
       do k = 1, size(angle)
          axis(:, k) = turn(angle(k), [1.0_dp, 0.0_dp])
       end do

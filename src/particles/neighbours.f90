@@ -18,7 +18,8 @@ module neighbours
    use lanes, only: nl
    use particles, only: far_away, particles_t, reserve_slots, state_t, swap_states
    use motions, only: pose_t
-   use solid_ghosts, only: list_near_solids, make_ghosts, solid_ghosts_t, sort_ghosts
+   use solid_ghosts, only: make_ghosts, solid_ghosts_t, sort_ghosts
+   use solid_lists, only: list_near_solids
    use solids, only: solid_t
    use strip_extents, only: measure_strips, take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t, too_scattered

@@ -4,24 +4,23 @@
 !! strips of their own, and have images like the fluid's. They are in no list of the fluid's own sums.
 module solid_ghosts
    use box, only: box_t, way_back
-   use candidates, only: acts, block_groups, candidates_t, group_extent, list_group, shared_candidates_t, trim_lists
+   use candidates, only: shared_candidates_t
    use free_ghosts, only: free_ghosts_t, new_free_ghosts
    use ghost_faces, only: ghost_faces_t
    use image_laws, only: as_position, beyond, law_t
    use images, only: fill_ghosts, images_t, list_images
    use kinds, only: dp, i8
-   use lanes, only: nl
    use motions, only: move_point, pose_t, turn
    use particles, only: far_away, particles_t, reserve_slots, state_t
    use rigid_bodies, only: coasting
    use solid_cells, only: cell_t, find_cells, move_cell
    use solids, only: new_obstacle, obstacle_t, solid_t
-   use strip_extents, only: measure_strips, take_slack
-   use strips, only: add_ranges, extent_t, group_slots, ranges_t, sort_into_strips, strips_t
+   use strip_extents, only: measure_strips
+   use strips, only: group_slots, sort_into_strips, strips_t
    implicit none
    private
 
-   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts, list_near_solids
+   public :: solid_ghosts_t, make_ghosts, sort_ghosts, move_ghosts, mirror_ghosts
 
    !> All ghosts, and what is near them.
    type :: solid_ghosts_t
@@ -34,6 +33,7 @@ module solid_ghosts
       logical, allocatable :: through(:, :)        !! (4, solids) it moves, and reaches through the side
       real(dp) :: acceleration = 0                 !! [m/s2] none has more
       type(pose_t), allocatable :: poses(:)        !! (solids) where the ghosts are
+      logical :: moves = .false.                   !! some solid does
       type(free_ghosts_t), allocatable :: free     !! where some solids are free
       real(dp) :: creep = 0                        !! [m/s] by which those that walls cut may move otherwise than their solid,
       real(dp) :: width = 0                        !! [m] and less than which they stand beside where they are sorted
@@ -265,6 +265,8 @@ contains
       do k = 1, self%n_slots
          self%solid_of(k) = 0
          self%place(:, k) = far_away
+         self%pull_x(k) = 0
+         self%pull_y(k) = 0
          self%area(k) = 0
          self%way(:, k) = 0
          if (self%strips%point_of(k) == 0) cycle
@@ -313,37 +315,49 @@ contains
          self%through(:, k) = now%reaches_through(box)
       end do
       if (self%shared) self%obstacles = [(new_obstacle(solids(k), poses(k), box), k=1, size(solids))]
+      call rest(self, state)
+      self%moves = any(moves)
+      if (.not. self%moves) return
       !$omp parallel do default(none) shared(self, solids, box, state, moves)
       do k = 1, self%n_slots
-         call move_ghost(self, solids, box, moves, k, state)
+         if (self%solid_of(k) == 0) cycle
+         if (moves(self%solid_of(k))) call move_ghost(self, solids(self%solid_of(k)), box, k, state)
       end do
       !$omp end parallel do
    end subroutine move_ghosts
 
-   pure subroutine move_ghost(self, solids, box, moves, k, state)
+   ! All where they were, and at rest.
+   subroutine rest(self, state)
+      type(solid_ghosts_t), intent(in) :: self
+      type(state_t), intent(inout) :: state
+      integer :: i, k
+
+      !$omp parallel do simd default(none) shared(self, state) private(i)
+      do k = 1, self%n_slots
+         i = self%before + k
+         state%x(i) = self%place(1, k) + self%way(1, k)
+         state%y(i) = self%place(2, k) + self%way(2, k)
+         state%u(i) = 0
+         state%v(i) = 0
+         state%s(i) = 0
+         state%volume(i) = self%area(k)
+      end do
+      !$omp end parallel do simd
+   end subroutine rest
+
+   pure subroutine move_ghost(self, solid, box, k, state)
       type(solid_ghosts_t), intent(inout) :: self
-      type(solid_t), intent(in) :: solids(:)
+      type(solid_t), intent(in) :: solid       ! the ghost's
       type(box_t), intent(in) :: box
-      logical, intent(in) :: moves(:)          ! (solids)
       integer, intent(in) :: k
       type(state_t), intent(inout) :: state
-      real(dp) :: place(2), velocity(2), acceleration(2), pull(2), area
-      integer :: number
+      real(dp) :: place(2), velocity(2), acceleration(2), normal(2), pull(2), area
 
-      number = self%solid_of(k)
-      place = self%place(:, k)
-      velocity = 0
-      pull = 0
-      area = self%area(k)
-      if (number > 0) then
-         if (moves(number)) then
-            associate (cell => self%drawn(self%strips%point_of(k)))
-               call move_cell(cell, solids(number)%pivot, self%poses(number), box, place, velocity, acceleration, area)
-               pull = turn(self%poses(number)%angle, cell%normal)
-               pull = dot_product(acceleration, pull)*pull
-            end associate
-         end if
-      end if
+      associate (cell => self%drawn(self%strips%point_of(k)), pose => self%poses(self%solid_of(k)))
+         call move_cell(cell, solid%pivot, pose, box, place, velocity, acceleration, area)
+         normal = turn(pose%angle, cell%normal)
+      end associate
+      pull = dot_product(acceleration, normal)*normal
       self%pull_x(k) = pull(1)
       self%pull_y(k) = pull(2)
       self%place(:, k) = place
@@ -352,7 +366,6 @@ contains
          state%y(i) = place(2) + self%way(2, k)
          state%u(i) = velocity(1)
          state%v(i) = velocity(2)
-         state%s(i) = 0
          state%volume(i) = area
       end associate
    end subroutine move_ghost
@@ -365,7 +378,7 @@ contains
       real(dp) :: pass(2)
       integer :: k, source
 
-      call self%faces%turn(self%poses%angle, self%solid_of)
+      if (self%moves .or. .not. self%faces%are_turned) call self%faces%turn(self%poses%angle, self%solid_of)
       if (self%images%n == 0) return
       call fill_ghosts(self%images, box, state)
       call mirror_field(self, self%exchange)
@@ -389,104 +402,5 @@ contains
          field(self%n_slots + k) = field(self%images%source(k) - self%before)
       end do
    end subroutine mirror_field
-
-   !> Lists, for each block of the fluid, the ghosts that its clusters can reach, and for ghosts the fluid.
-   subroutine list_near_solids(self, blocks, strips, images, p, predicted, age, times, support)
-      type(solid_ghosts_t), intent(inout) :: self
-      type(candidates_t), intent(in) :: blocks(:)   !! of the fluid
-      type(strips_t), intent(in) :: strips, images  !! of the fluid and of its images
-      type(particles_t), intent(in) :: p            !! base state of all slots
-      type(state_t), intent(inout) :: predicted     !! positions of all slots, and slack in place of the volume but of the ghosts
-      real(dp), intent(in) :: age                   !! of the base state since the sort
-      real(dp), intent(in) :: times(2)              !! from the base state to the prediction; before and after it that lists last
-      real(dp), intent(in) :: support
-      real(dp) :: allowed
-      integer :: b
-
-      associate (first => self%before + 1, last => self%before + self%n_slots)
-         ! A solid's velocity at `base` leads its ghosts to where they are predicted; beside that they go by their acceleration.
-         predicted%volume(first:p%n_slots) = self%acceleration*(abs(times(1)) + times(2))**2 &
-                                             + self%creep*(abs(times(1)) + times(2)) + merge(self%width, 0.0_dp, self%creep > 0)
-         if (allocated(self%free)) then
-            call self%free%take_lists(self%poses, age, abs(times(1)) + times(2), allowed)
-            predicted%volume(first:p%n_slots) = predicted%volume(first:p%n_slots) + allowed
-         end if
-         call take_slack(self%strips, predicted%volume)
-         call take_slack(self%images%strips, predicted%volume)
-         call lay_out(self, size(blocks))
-      end associate
-      !$omp parallel default(none) shared(self, blocks, strips, images, p, predicted, times, support)
-      !$omp do schedule(dynamic)
-      do b = 1, size(blocks)
-         self%near(b)%before = blocks(b)%before
-         self%near(b)%n_clusters = blocks(b)%n_clusters
-         call list_block(self%near(b)%candidates_t, self%strips, self%images%strips, p, predicted, times(2), support)
-         self%meets(b) = self%near(b)%first(self%near(b)%n_clusters + 1) > 1
-         if (self%shared) self%near(b)%all = self%near(b)%candidates_t
-      end do
-      !$omp end do
-      !$omp do schedule(dynamic)
-      do b = 1, self%n_blocks
-         call list_block(self%fluid(b)%candidates_t, strips, images, p, predicted, times(2), support)
-         if (self%shared) self%fluid(b)%all = self%fluid(b)%candidates_t
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine list_near_solids
-
-   ! Blocks of ghosts, whatever their strip: no sum goes over one.
-   subroutine lay_out(self, n_near)
-      type(solid_ghosts_t), intent(inout) :: self
-      integer, intent(in) :: n_near   ! blocks of the fluid
-      integer :: b, n_groups
-
-      n_groups = self%n_slots/group_slots
-      self%n_blocks = (n_groups + block_groups - 1)/block_groups
-      if (allocated(self%near)) then
-         if (size(self%near) < n_near .or. size(self%fluid) < self%n_blocks) deallocate (self%near, self%fluid, self%meets)
-      end if
-      if (.not. allocated(self%near)) then
-         allocate (self%near(n_near + n_near/8), self%fluid(self%n_blocks + 8), self%meets(n_near + n_near/8))
-         call set_parts(self%near)
-         call set_parts(self%fluid)
-      end if
-      do b = 1, self%n_blocks
-         self%fluid(b)%before = self%before + (b - 1)*block_groups*group_slots
-         self%fluid(b)%n_clusters = min(block_groups, n_groups - (b - 1)*block_groups)*group_slots/nl
-      end do
-   end subroutine lay_out
-
-   ! All pairs act.
-   elemental subroutine set_parts(block)
-      type(shared_candidates_t), intent(inout) :: block
-
-      allocate (block%part(nl, 0:0), source=acts)
-   end subroutine set_parts
-
-   ! The lists of a block's clusters.
-   subroutine list_block(block, strips, images, p, predicted, travel, support)
-      type(candidates_t), intent(inout) :: block
-      type(strips_t), intent(in) :: strips, images
-      type(particles_t), intent(in) :: p
-      type(state_t), intent(in) :: predicted
-      real(dp), intent(in) :: travel, support
-      type(extent_t) :: group
-      type(ranges_t) :: own, mirrored
-      integer, allocatable :: found(:)
-      integer :: g, i0, n_groups
-
-      n_groups = nl*block%n_clusters/group_slots
-      do g = 1, n_groups
-         i0 = block%before + (g - 1)*group_slots
-         group = group_extent(p%id, predicted, p%base, i0)
-         own%n = 0
-         mirrored%n = 0
-         call add_ranges(strips, group, support, travel, own)
-         call add_ranges(images, group, support, travel, mirrored)
-         call list_group(block, g, own, mirrored, p%capacity, predicted%x, predicted%y, p%base%u, p%base%v, predicted%volume, i0, &
-                         group, support, travel, found)
-      end do
-      call trim_lists(block)
-   end subroutine list_block
 
 end module solid_ghosts

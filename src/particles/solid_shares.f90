@@ -25,10 +25,23 @@ module solid_shares
 
    ! A face of a solid.
    type :: edge_t
-      integer :: number = 0
-      real(dp) :: a(2) = 0, b(2) = 0, normal(2) = 0
-      real(dp) :: room(4) = 0                            ! around it: left, right, bottom, top
+      integer :: number
+      real(dp) :: a(2), b(2), normal(2)
+      real(dp) :: room(4)                                ! around it: left, right, bottom, top
    end type edge_t
+
+   ! Faces of all solids, one's behind the other's.
+   type :: faces_t
+      integer, allocatable :: first(:)                   ! (solids+1) where they begin
+      type(edge_t), allocatable :: edge(:)
+   end type faces_t
+
+   ! What each thread works with.
+   type :: scratch_t
+      real(dp), allocatable :: part(:, :)                ! (nl, places in the list and more) of a cluster
+      type(edge_t), allocatable :: edge(:)               ! (all faces)
+      integer :: n = 0                                   ! faces of a solid that ways may lead through
+   end type scratch_t
 
    ! The faces that the ways of a cluster lead through first.
    type :: crossed_t
@@ -45,26 +58,28 @@ contains
       type(state_t), intent(in) :: state           !! of all slots
       type(box_t), intent(in) :: box               !! at any time
       real(dp), intent(in) :: support              !! of the kernel
-      real(dp), allocatable :: part(:, :)
+      type(faces_t) :: faces
+      type(scratch_t) :: scratch
       integer :: b, c
       logical :: mixed
 
-      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support) private(c, mixed, part)
-      allocate (part(nl, 0))
+      faces = faces_of(ghosts%obstacles)
+      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, mixed, scratch)
+      allocate (scratch%part(nl, 0), scratch%edge(size(faces%edge)))
       !$omp do schedule(dynamic)
       do b = 1, n_blocks
          if (.not. ghosts%meets(b)) cycle
          do c = 1, ghosts%near(b)%n_clusters
-            call share_of_fluid(ghosts, ghosts%near(b)%all, c, state, box, reach*support, mixed, part)
-            call ghosts%near(b)%choose(c, mixed, part)
+            call share_of_fluid(ghosts, ghosts%near(b)%all, c, state, faces, box, reach*support, mixed, scratch)
+            call ghosts%near(b)%choose(c, mixed, scratch%part)
          end do
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, ghosts%n_blocks
          do c = 1, ghosts%fluid(b)%n_clusters
-            call share_of_ghosts(ghosts, ghosts%fluid(b)%all, c, state, reach*support, mixed, part)
-            call ghosts%fluid(b)%choose(c, mixed, part)
+            call share_of_ghosts(ghosts, ghosts%fluid(b)%all, c, state, faces, reach*support, mixed, scratch)
+            call ghosts%fluid(b)%choose(c, mixed, scratch%part)
          end do
       end do
       !$omp end do
@@ -72,16 +87,16 @@ contains
    end subroutine find_shares
 
    ! Of a cluster of the fluid and the ghosts near it.
-   pure subroutine share_of_fluid(ghosts, block, c, state, box, support, mixed, part)
+   pure subroutine share_of_fluid(ghosts, block, c, state, faces, box, support, mixed, scratch)
       type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block         ! of the fluid
       integer, intent(in) :: c                        ! cluster
       type(state_t), intent(in) :: state
+      type(faces_t), intent(in) :: faces
       type(box_t), intent(in) :: box
       real(dp), intent(in) :: support                 ! farther pairs do not matter
       logical, intent(out) :: mixed                   ! some ghosts are not alone in their cells; parts are set only then
-      real(dp), allocatable, intent(inout) :: part(:, :)   ! (nl, places in the list and more)
-      type(edge_t), allocatable :: edges(:)
+      type(scratch_t), intent(inout) :: scratch
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: x, y, to_x, to_y, face, normal_x, normal_y
       real(dp) :: here(4), there(4), begin(4), sign(2), place(2), last(2), way(2)
@@ -94,7 +109,7 @@ contains
             mixed = mixed .or. ghosts%face(near(k) - ghosts%before) > 0
          end do
          if (.not. mixed) return
-         call make_room(part, size(near))
+         call make_room(scratch%part, size(near))
          i0 = block%before + (c - 1)*nl
          x = state%x(i0 + 1:i0 + nl)
          y = state%y(i0 + 1:i0 + nl)
@@ -108,23 +123,24 @@ contains
             m = j - ghosts%before
             mirrored = m > ghosts%n_slots
             if (mirrored) m = ghosts%images%source(m - ghosts%n_slots) - ghosts%before
-            part(:, k) = acts
+            scratch%part(:, k) = acts
             if (ghosts%face(m) == 0) cycle
             associate (solid => ghosts%obstacles(ghosts%solid_of(m)))
                is_other = number /= ghosts%solid_of(m) .or. any(abs(ghosts%way(:, m) - way) > 0) .or. (mirrored .neqv. was_mirrored)
                number = ghosts%solid_of(m)
                way = ghosts%way(:, m)
                was_mirrored = mirrored
-               if (is_other) call find_faces(solid, here - way([1, 1, 2, 2]), merge(huge(support), support, mirrored), edges)
+               if (is_other) call find_faces(faces, number, here - way([1, 1, 2, 2]), merge(huge(support), support, mirrored), &
+                                             scratch)
                face = ghosts%face(m)
                normal_x = solid%normal(1, ghosts%face(m))
                normal_y = solid%normal(2, ghosts%face(m))
                place = [state%x(j), state%y(j)]
                ! The ghosts of a cell follow each other in the list.
-               if (size(edges) == 1) then
-                  crossed%face = edges(1)%number
-                  crossed%normal_x = edges(1)%normal(1)
-                  crossed%normal_y = edges(1)%normal(2)
+               if (scratch%n == 1) then
+                  crossed%face = scratch%edge(1)%number
+                  crossed%normal_x = scratch%edge(1)%normal(1)
+                  crossed%normal_y = scratch%edge(1)%normal(2)
                else if (is_other .or. any(abs(place - last) > 0)) then
                   sign = ghosts%signs(box, j)
                   to_x = ghosts%place(1, m)
@@ -132,26 +148,26 @@ contains
                   there = ghosts%place([1, 1, 2, 2], m)
                   begin = there + sign([1, 1, 2, 2])*(here - place([1, 1, 2, 2]))
                   if (mirrored) begin = hull(begin, begin([2, 1, 4, 3]), 0.0_dp)
-                  call find_crossed(solid, edges, hull(begin, there, slightly*support), support, &
+                  call find_crossed(solid, scratch%edge(:scratch%n), hull(begin, there, slightly*support), support, &
                                     to_x + sign(1)*(x - place(1)), to_y + sign(2)*(y - place(2)), to_x, to_y, crossed)
                end if
                last = place
             end associate
-            call take_parts(crossed, face, normal_x, normal_y, part(:, k))
+            call take_parts(crossed, face, normal_x, normal_y, scratch%part(:, k))
          end do
       end associate
    end subroutine share_of_fluid
 
    ! Of a cluster of ghosts and the fluid near it.
-   pure subroutine share_of_ghosts(ghosts, block, c, state, support, mixed, part)
+   pure subroutine share_of_ghosts(ghosts, block, c, state, faces, support, mixed, scratch)
       type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block         ! of ghosts
       integer, intent(in) :: c                        ! cluster
       type(state_t), intent(in) :: state
+      type(faces_t), intent(in) :: faces
       real(dp), intent(in) :: support                 ! farther pairs do not matter
       logical, intent(out) :: mixed                   ! some ghosts are not alone in their cells; parts are set only then
-      real(dp), allocatable, intent(inout) :: part(:, :)   ! (nl, places in the list and more)
-      type(edge_t), allocatable :: edges(:)
+      type(scratch_t), intent(inout) :: scratch
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: to_x, to_y, shift_x, shift_y, face, normal_x, normal_y, of_solid
       real(dp) :: there(4), shifts(4), begin(4)
@@ -163,8 +179,8 @@ contains
       mixed = any(ghosts%face(m0 + 1:m0 + nl) > 0)
       if (.not. mixed) return
       associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
-         call make_room(part, size(near))
-         part(:, :size(near)) = acts
+         call make_room(scratch%part, size(near))
+         scratch%part(:, :size(near)) = acts
          to_x = ghosts%place(1, m0 + 1:m0 + nl)
          to_y = ghosts%place(2, m0 + 1:m0 + nl)
          shift_x = to_x - state%x(i0 + 1:i0 + nl)
@@ -177,14 +193,14 @@ contains
             shifts = [minval(shift_x, alike), maxval(shift_x, alike), minval(shift_y, alike), maxval(shift_y, alike)]
             associate (solid => ghosts%obstacles(number))
                call take_faces(solid, merge(ghosts%face(m0 + 1:m0 + nl), 0, alike), face, normal_x, normal_y)
-               call find_faces(solid, there, support, edges)
+               call find_faces(faces, number, there, support, scratch)
                do k = 1, size(near)
                   begin = shifts + [state%x(near(k)), state%x(near(k)), state%y(near(k)), state%y(near(k))]
-                  call find_crossed(solid, edges, hull(begin, there, slightly*support), support, &
+                  call find_crossed(solid, scratch%edge(:scratch%n), hull(begin, there, slightly*support), support, &
                                     to_x + (state%x(near(k)) - state%x(i0 + 1:i0 + nl)), &
                                     to_y + (state%y(near(k)) - state%y(i0 + 1:i0 + nl)), to_x, to_y, crossed)
                   call take_parts(crossed, face, normal_x, normal_y, of_solid)
-                  part(:, k) = min(part(:, k), of_solid)
+                  scratch%part(:, k) = min(scratch%part(:, k), of_solid)
                end do
             end associate
          end do
@@ -271,23 +287,42 @@ contains
       end do
    end subroutine find_crossed
 
-   ! The faces of a solid that are nearer to a room than `reach`, along the axes.
-   pure subroutine find_faces(solid, room, reach, edges)
-      type(obstacle_t), intent(in) :: solid
-      real(dp), intent(in) :: room(4), reach
-      type(edge_t), allocatable, intent(out) :: edges(:)
-      type(edge_t) :: faces(size(solid%is_face))
-      integer :: k, n
+   ! The faces of all solids.
+   pure type(faces_t) function faces_of(solids) result(faces)
+      type(obstacle_t), intent(in) :: solids(:)
+      integer :: k, n, next, solid
 
+      allocate (faces%first(size(solids) + 1), faces%edge(sum([(count(solids(k)%is_face), k=1, size(solids))])))
       n = 0
-      do k = 1, size(faces)
-         if (.not. solid%is_face(k)) cycle
-         associate (a => solid%outline(:, k), b => solid%outline(:, merge(k + 1, 1, k < size(faces))))
-            faces(n + 1) = edge_t(k, a, b, solid%normal(:, k), hull(a([1, 1, 2, 2]), b([1, 1, 2, 2]), 0.0_dp))
+      do solid = 1, size(solids)
+         faces%first(solid) = n + 1
+         associate (now => solids(solid))
+            do k = 1, size(now%is_face)
+               if (.not. now%is_face(k)) cycle
+               n = n + 1
+               next = 1 + mod(k, size(now%is_face))
+               faces%edge(n) = edge_t(k, now%outline(:, k), now%outline(:, next), now%normal(:, k), &
+                                      hull(now%outline([1, 1, 2, 2], k), now%outline([1, 1, 2, 2], next), 0.0_dp))
+            end do
          end associate
-         if (meet(faces(n + 1)%room, room + reach*[-1, 1, -1, 1])) n = n + 1
       end do
-      edges = faces(:n)
+      faces%first(size(solids) + 1) = n + 1
+   end function faces_of
+
+   ! Those of a solid that are nearer to a room than `reach`, along the axes.
+   pure subroutine find_faces(faces, solid, room, reach, scratch)
+      type(faces_t), intent(in) :: faces
+      integer, intent(in) :: solid
+      real(dp), intent(in) :: room(4), reach
+      type(scratch_t), intent(inout) :: scratch   ! n, edge(:n)
+      integer :: k
+
+      scratch%n = 0
+      do k = faces%first(solid), faces%first(solid + 1) - 1
+         if (.not. meet(faces%edge(k)%room, room + reach*[-1, 1, -1, 1])) cycle
+         scratch%n = scratch%n + 1
+         scratch%edge(scratch%n) = faces%edge(k)
+      end do
    end subroutine find_faces
 
    ! The room around two others, and some more.
