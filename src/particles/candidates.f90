@@ -87,7 +87,7 @@ contains
       do k = self%all%first(c), self%all%first(c + 1) - 1
          if (shared) then
             m = k - self%all%first(c) + 1
-            if (.not. any(part(:, m) > 0)) cycle
+            if (.not. sum(part(:, m)) > 0) cycle
             self%part(:, n + 1) = part(:, m)
          end if
          n = n + 1

@@ -16,7 +16,8 @@ module solid_cells
 
    integer, parameter :: most_corners = 24          ! of a cell that walls cut at each time anew
    real(dp), parameter :: least_area = 1.0e-6_dp    ! in dx**2; what is less is left out
-   real(dp), parameter, public :: turned_away = -0.5_dp   !! product of the normals of faces that share no ghost
+   !> Product of the normals of faces that share no ghost: 120 degrees and, whatever rounding does, those as well.
+   real(dp), parameter, public :: turned_away = -0.5_dp + 1.0e-9_dp
 
    !> As drawn, before the solid's motion.
    type :: cell_t

@@ -30,10 +30,12 @@ module solid_shares
       real(dp) :: room(4)                                ! around it: left, right, bottom, top
    end type edge_t
 
-   ! Faces of all solids, one's behind the other's.
+   ! Edges of all solids, one's behind the other's: its faces, then what is behind walls.
    type :: faces_t
       integer, allocatable :: first(:)                   ! (solids+1) where they begin
+      integer, allocatable :: last(:)                    ! (solids) where the faces end
       type(edge_t), allocatable :: edge(:)
+      logical, allocatable :: convex(:)                  ! (solids)
    end type faces_t
 
    ! What each thread works with.
@@ -132,16 +134,18 @@ contains
                was_mirrored = mirrored
                if (is_other) call find_faces(faces, number, here - way([1, 1, 2, 2]), merge(huge(support), support, mirrored), &
                                              scratch)
+               if (is_other .and. .not. mirrored) call keep_only(faces, number, x - way(1), y - way(2), slightly*support, scratch)
+               if (scratch%n == 1) then   ! no way leads through another
+                  scratch%part(:, k) = part_of(scratch%edge(1), ghosts%face(m), solid%normal(1, ghosts%face(m)), &
+                                                solid%normal(2, ghosts%face(m)))
+                  cycle
+               end if
                face = ghosts%face(m)
                normal_x = solid%normal(1, ghosts%face(m))
                normal_y = solid%normal(2, ghosts%face(m))
                place = [state%x(j), state%y(j)]
                ! The ghosts of a cell follow each other in the list.
-               if (scratch%n == 1) then
-                  crossed%face = scratch%edge(1)%number
-                  crossed%normal_x = scratch%edge(1)%normal(1)
-                  crossed%normal_y = scratch%edge(1)%normal(2)
-               else if (is_other .or. any(abs(place - last) > 0)) then
+               if (is_other .or. any(abs(place - last) > 0)) then
                   sign = ghosts%signs(box, j)
                   to_x = ghosts%place(1, m)
                   to_y = ghosts%place(2, m)
@@ -172,7 +176,9 @@ contains
       real(dp), dimension(nl) :: to_x, to_y, shift_x, shift_y, face, normal_x, normal_y, of_solid
       real(dp) :: there(4), shifts(4), begin(4)
       logical :: alike(nl)                            ! lanes of one solid
-      integer :: i0, k, l, m0, number
+      logical :: together                             ! which is convex, and they see each particle at one place
+      integer :: owner(nl)                            ! its faces that they are for
+      integer :: i0, k, l, m0, number, only, last_only
 
       i0 = block%before + (c - 1)*nl
       m0 = i0 - ghosts%before
@@ -192,9 +198,22 @@ contains
             there = [minval(to_x, alike), maxval(to_x, alike), minval(to_y, alike), maxval(to_y, alike)]
             shifts = [minval(shift_x, alike), maxval(shift_x, alike), minval(shift_y, alike), maxval(shift_y, alike)]
             associate (solid => ghosts%obstacles(number))
-               call take_faces(solid, merge(ghosts%face(m0 + 1:m0 + nl), 0, alike), face, normal_x, normal_y)
+               owner = merge(ghosts%face(m0 + 1:m0 + nl), 0, alike)
+               call take_faces(solid, owner, face, normal_x, normal_y)
                call find_faces(faces, number, there, support, scratch)
+               together = faces%convex(number) .and. maxval(shifts([2, 4]) - shifts([1, 3])) < slightly*slightly*support
+               last_only = 0
                do k = 1, size(near)
+                  only = 0
+                  if (together) only = only_before(faces, number, scratch%edge(:scratch%n), &
+                                                   [state%x(near(k)), state%y(near(k))] + shifts([1, 3]), slightly*support)
+                  if (only > 0) then
+                     if (only /= last_only) of_solid = part_of(scratch%edge(only), owner, normal_x, normal_y)
+                     last_only = only
+                     scratch%part(:, k) = min(scratch%part(:, k), of_solid)
+                     cycle
+                  end if
+                  last_only = 0
                   begin = shifts + [state%x(near(k)), state%x(near(k)), state%y(near(k)), state%y(near(k))]
                   call find_crossed(solid, scratch%edge(:scratch%n), hull(begin, there, slightly*support), support, &
                                     to_x + (state%x(near(k)) - state%x(i0 + 1:i0 + nl)), &
@@ -232,6 +251,67 @@ contains
          normal_y(l) = solid%normal(2, number(l))
       end do
    end subroutine take_faces
+
+   ! The only one of some edges of a convex solid that a particle is before: ways from it lead in through this one. 0 where there
+   ! are others, or could be but for rounding, or edges that are no faces.
+   pure integer function only_before(faces, solid, edges, place, margin) result(only)
+      type(faces_t), intent(in) :: faces
+      integer, intent(in) :: solid
+      type(edge_t), intent(in) :: edges(:)      ! faces of it that ways may lead through
+      real(dp), intent(in) :: place(2), margin
+      real(dp) :: height
+      integer :: k
+
+      only = 0
+      do k = faces%last(solid) + 1, faces%first(solid + 1) - 1
+         if (height_over(faces%edge(k), place) > -margin) return
+      end do
+      do k = 1, size(edges)
+         height = height_over(edges(k), place)
+         if (height < -margin) cycle
+         if (height < margin .or. only > 0) then
+            only = 0
+            return
+         end if
+         only = k
+      end do
+   end function only_before
+
+   ! Of the faces that ways may lead through the only one, where it is the same for all particles of a cluster.
+   pure subroutine keep_only(faces, solid, x, y, margin, scratch)
+      type(faces_t), intent(in) :: faces
+      integer, intent(in) :: solid
+      real(dp), intent(in) :: x(nl), y(nl), margin
+      type(scratch_t), intent(inout) :: scratch
+      integer :: l, only
+
+      if (scratch%n < 2 .or. .not. faces%convex(solid)) return
+      only = only_before(faces, solid, scratch%edge(:scratch%n), [x(1), y(1)], margin)
+      if (only == 0) return
+      do l = 2, nl
+         if (only_before(faces, solid, scratch%edge(:scratch%n), [x(l), y(l)], margin) /= only) return
+      end do
+      scratch%edge(1) = scratch%edge(only)
+      scratch%n = 1
+   end subroutine keep_only
+
+   ! How far a place is before an edge; less than 0 behind it.
+   pure real(dp) function height_over(edge, place)
+      type(edge_t), intent(in) :: edge
+      real(dp), intent(in) :: place(2)
+
+      height_over = edge%normal(1)*(place(1) - edge%a(1)) + edge%normal(2)*(place(2) - edge%a(2))
+   end function height_over
+
+   ! The parts of pairs whose ways lead through an edge.
+   elemental real(dp) function part_of(edge, face, normal_x, normal_y)
+      type(edge_t), intent(in) :: edge
+      integer, intent(in) :: face                       ! of the ghost; 0 if it is alone in its cell
+      real(dp), intent(in) :: normal_x, normal_y        ! of that
+
+      part_of = merge(gives, 0.0_dp, normal_x*edge%normal(1) + normal_y*edge%normal(2) > turned_away)
+      if (face == edge%number .or. face == 0) part_of = acts
+   end function part_of
 
    ! The parts of pairs, from the faces of the ghosts and those that are crossed.
    pure subroutine take_parts(crossed, face, normal_x, normal_y, part)
@@ -287,27 +367,47 @@ contains
       end do
    end subroutine find_crossed
 
-   ! The faces of all solids.
+   ! The edges of all solids.
    pure type(faces_t) function faces_of(solids) result(faces)
       type(obstacle_t), intent(in) :: solids(:)
       integer :: k, n, next, solid
 
-      allocate (faces%first(size(solids) + 1), faces%edge(sum([(count(solids(k)%is_face), k=1, size(solids))])))
+      allocate (faces%first(size(solids) + 1), faces%last(size(solids)), faces%convex(size(solids)))
+      allocate (faces%edge(sum([(size(solids(k)%is_face), k=1, size(solids))])))
       n = 0
       do solid = 1, size(solids)
          faces%first(solid) = n + 1
-         associate (now => solids(solid))
-            do k = 1, size(now%is_face)
-               if (.not. now%is_face(k)) cycle
-               n = n + 1
-               next = 1 + mod(k, size(now%is_face))
-               faces%edge(n) = edge_t(k, now%outline(:, k), now%outline(:, next), now%normal(:, k), &
-                                      hull(now%outline([1, 1, 2, 2], k), now%outline([1, 1, 2, 2], next), 0.0_dp))
+         call add_edges(solids(solid), .true., faces%edge, n)
+         faces%last(solid) = n
+         call add_edges(solids(solid), .false., faces%edge, n)
+         faces%convex(solid) = .true.
+         associate (normal => solids(solid)%normal)
+            do k = 1, size(normal, 2)
+               next = 1 + mod(k, size(normal, 2))
+               faces%convex(solid) = faces%convex(solid) .and. normal(1, k)*normal(2, next) - normal(2, k)*normal(1, next) >= 0
             end do
          end associate
       end do
       faces%first(size(solids) + 1) = n + 1
    end function faces_of
+
+   ! Those edges of a solid that are faces, or the others.
+   pure subroutine add_edges(solid, faces, edge, n)
+      type(obstacle_t), intent(in) :: solid
+      logical, intent(in) :: faces
+      type(edge_t), intent(inout) :: edge(:)
+      integer, intent(inout) :: n               ! of all so far
+      integer :: k, next
+
+      do k = 1, size(solid%is_face)
+         if (solid%is_face(k) .neqv. faces) cycle
+         n = n + 1
+         next = 1 + mod(k, size(solid%is_face))
+         associate (a => solid%outline(:, k), b => solid%outline(:, next))
+            edge(n) = edge_t(k, a, b, solid%normal(:, k), hull(a([1, 1, 2, 2]), b([1, 1, 2, 2]), 0.0_dp))
+         end associate
+      end do
+   end subroutine add_edges
 
    ! Those of a solid that are nearer to a room than `reach`, along the axes.
    pure subroutine find_faces(faces, solid, room, reach, scratch)
@@ -318,7 +418,7 @@ contains
       integer :: k
 
       scratch%n = 0
-      do k = faces%first(solid), faces%first(solid + 1) - 1
+      do k = faces%first(solid), faces%last(solid)
          if (.not. meet(faces%edge(k)%room, room + reach*[-1, 1, -1, 1])) cycle
          scratch%n = scratch%n + 1
          scratch%edge(scratch%n) = faces%edge(k)
