@@ -320,6 +320,7 @@ contains
          bytes = p%bytes() + state%near%bytes()
          call sums_of_all(1, bytes)
          call file%add('bytes_per_particle', real(bytes(1), dp)/p%n)
+         if (state%near%ghosts%exist()) call file%add('ghosts', state%near%ghosts%n)
          call file%add('steps', run%step)
          call file%add('time', run%time)
          call file%add('threads', omp_get_max_threads())

@@ -5,7 +5,6 @@
 module solid_sums
    use box, only: box_t
    use candidates, only: acts, block_slots, gives, shared_candidates_t
-   use flow_sums, only: flow_sums_t
    use image_laws, only: as_position, image_of, law_t
    use images, only: images_t
    use kernel, only: kernel_t, pair_with_value
@@ -172,25 +171,22 @@ contains
       sums%inflow(l) = sums%inflow(l) + (1 - pass(1))*state%u(i)*weight(1) + (1 - pass(2))*state%v(i)*weight(2)
    end subroutine add_image
 
-   !> What solids add to the flow sums of a block of the fluid.
-   pure subroutine sum_solids(kernel, ghosts, b, state, sums)
+   !> What solids add to the flow sums of a cluster of the fluid.
+   pure subroutine sum_solids(kernel, ghosts, b, c, state, divergence, force_x, force_y)
       type(kernel_t), intent(in) :: kernel
       type(solid_ghosts_t), intent(in) :: ghosts
-      integer, intent(in) :: b                  !! number of the block
+      integer, intent(in) :: b, c               !! numbers of its block, and of it there
       type(state_t), intent(in) :: state        !! of all slots
-      type(flow_sums_t), intent(inout) :: sums
-      integer :: c, k, parts(2)
+      real(dp), dimension(nl), intent(out) :: divergence, force_x, force_y
+      integer :: parts(2)
 
       associate (block => ghosts%near(b))
-         do c = 1, block%n_clusters
-            k = (c - 1)*nl
-            parts = block%parts(c)
-            call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
-                           parts(2) - parts(1) + 1, block%part(:, parts(1):parts(2)), &
-                           size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, size(ghosts%exchange), &
-                           ghosts%exchange, ghosts%before, block%before + k, kernel%inverse_support, &
-                           sums%divergence(k + 1:k + nl), sums%force_x(k + 1:k + nl), sums%force_y(k + 1:k + nl))
-         end do
+         parts = block%parts(c)
+         call lane_loop(block%first(c + 1) - block%first(c), block%slot(block%first(c):block%first(c + 1) - 1), &
+                        parts(2) - parts(1) + 1, block%part(:, parts(1):parts(2)), &
+                        size(state%x), state%x, state%y, state%u, state%v, state%s, state%volume, size(ghosts%exchange), &
+                        ghosts%exchange, ghosts%before, block%before + (c - 1)*nl, kernel%inverse_support, &
+                        divergence, force_x, force_y)
       end associate
    end subroutine sum_solids
 

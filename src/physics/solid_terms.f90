@@ -49,51 +49,80 @@ contains
       end if
       !$omp parallel do default(none) shared(model, box, near, state) private(sums) schedule(dynamic)
       do b = 1, near%ghosts%n_blocks
-         associate (block => near%ghosts%fluid(b))
-            call sum_ghosts(model%kernel, near%ghosts, b, state, near%images, box, sums)
-            call take_pressure(model, box, near, nl*block%n_clusters, block%before, sums, state)
-         end associate
+         call sum_ghosts(model%kernel, near%ghosts, b, state, near%images, box, sums)
+         call take_pressure(model, box, near, b, sums, state)
       end do
       !$omp end parallel do
       call release(model, box, near, state)
       call mirror_ghosts(near%ghosts, box, state)
    end subroutine meet_solids
 
-   ! s_b = sum_f c_fb (s_f + rho0/c0**2 (g - (A.n) n).r), q_b, F_b and -F_b.U.
-   subroutine take_pressure(model, box, near, n, i0, sums, state)
+   ! s_b = sum_f c_fb (s_f + rho0/c0**2 (g - (A.n) n).r), q_b, F_b and -F_b.U of a block of ghosts.
+   subroutine take_pressure(model, box, near, b, sums, state)
       type(model_t), intent(in) :: model
       type(box_t), intent(in) :: box
       type(neighbours_t), intent(inout) :: near
-      integer, intent(in) :: n, i0             ! ghosts of the block; slot before its first
+      integer, intent(in) :: b                 ! number of the block
       type(ghost_sums_t), intent(in) :: sums
       type(state_t), intent(inout) :: state
-      real(dp) :: inverse, slope(2), s, factor, power_force(2)
-      integer :: k, m
+      real(dp), dimension(block_slots) :: inertia_x, inertia_y, inverse, factor, x, y, felt_x, felt_y
+      real(dp) :: scale, force(2), slope_x, slope_y
+      integer :: i0, k, m0, n
+      logical :: has_inertia
 
-      do k = 1, n
-         m = i0 + k - near%ghosts%before
-         inverse = 0
-         if (model%kernel%value_factor*sums%weight(k) > least_weight) inverse = 1/sums%weight(k)
-         slope = model%rho0/model%c0**2*(model%acceleration - [0.0_dp, model%gravity] &
-                                         - [near%ghosts%pull_x(m), near%ghosts%pull_y(m)])
-         if (sums%weight(k) > 0) slope = slope + model%rho0/model%c0**2 &
-            *box%inertia%at([state%x(i0 + k), state%y(i0 + k)], [state%u(i0 + k), state%v(i0 + k)])
-         s = (sums%density(k) + slope(1)*sums%way_x(k) + slope(2)*sums%way_y(k))*inverse
-         state%s(i0 + k) = s
-         near%ghosts%exchange(m) = state%volume(i0 + k)*sums%inflow(k)*inverse
-         factor = model%c0**2*model%kernel%gradient_factor*state%volume(i0 + k)
-         associate (own => [sums%push_x(k) + s*sums%area_x(k), sums%push_y(k) + s*sums%area_y(k)], images => sums%images(:, k))
-            power_force = factor*(own + images(1:2) + s*images(3:4))
-            near%ghosts%force(:, m) = factor*(own + images(5:6) + s*images(7:8))
-            if (allocated(near%ghosts%free)) then
-               near%ghosts%free%tilt(:, m) = -model%rho0/model%c0**2*inverse*[sums%way_x(k), sums%way_y(k)]
-               near%ghosts%free%push(:, m) = power_force
-               near%ghosts%free%area(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(3:4))
-               near%ghosts%free%felt(:, m) = factor*([sums%area_x(k), sums%area_y(k)] + images(7:8))
-            end if
-         end associate
-         near%ghosts%power(m) = -power_force(1)*state%u(i0 + k) - power_force(2)*state%v(i0 + k)
-      end do
+      associate (block => near%ghosts%fluid(b), ghosts => near%ghosts)
+         n = nl*block%n_clusters
+         i0 = block%before
+         m0 = i0 - ghosts%before
+         force = model%acceleration - [0.0_dp, model%gravity]
+         scale = model%rho0/model%c0**2
+         has_inertia = any(abs([box%inertia%pull, box%inertia%spin, box%inertia%spin_rate]) > 0)
+         inertia_x(:n) = 0
+         inertia_y(:n) = 0
+         do k = 1, merge(n, 0, has_inertia)
+            if (.not. sums%weight(k) > 0) cycle
+            associate (a => box%inertia%at([state%x(i0 + k), state%y(i0 + k)], [state%u(i0 + k), state%v(i0 + k)]))
+               inertia_x(k) = a(1)
+               inertia_y(k) = a(2)
+            end associate
+         end do
+         !$omp simd private(slope_x, slope_y)
+         do k = 1, n
+            slope_x = scale*(force(1) - ghosts%pull_x(m0 + k)) + scale*inertia_x(k)
+            slope_y = scale*(force(2) - ghosts%pull_y(m0 + k)) + scale*inertia_y(k)
+            inverse(k) = merge(1.0_dp, 0.0_dp, model%kernel%value_factor*sums%weight(k) > least_weight) &
+                         /max(sums%weight(k), tiny(1.0_dp))
+            state%s(i0 + k) = (sums%density(k) + slope_x*sums%way_x(k) + slope_y*sums%way_y(k))*inverse(k)
+            ghosts%exchange(m0 + k) = state%volume(i0 + k)*sums%inflow(k)*inverse(k)
+            factor(k) = model%c0**2*model%kernel%gradient_factor*state%volume(i0 + k)
+            x(k) = sums%push_x(k) + state%s(i0 + k)*sums%area_x(k)
+            y(k) = sums%push_y(k) + state%s(i0 + k)*sums%area_y(k)
+            felt_x(k) = x(k)
+            felt_y(k) = y(k)
+         end do
+         if (any(block%first_image(:block%n_clusters) < block%first(2:block%n_clusters + 1))) then
+            do k = 1, n
+               associate (of => sums%images(:, k), s_b => state%s(i0 + k))
+                  x(k) = x(k) + of(1) + s_b*of(3)
+                  y(k) = y(k) + of(2) + s_b*of(4)
+                  felt_x(k) = felt_x(k) + of(5) + s_b*of(7)
+                  felt_y(k) = felt_y(k) + of(6) + s_b*of(8)
+               end associate
+            end do
+         end if
+         do k = 1, n
+            ghosts%force(1, m0 + k) = factor(k)*felt_x(k)
+            ghosts%force(2, m0 + k) = factor(k)*felt_y(k)
+            ghosts%power(m0 + k) = -factor(k)*x(k)*state%u(i0 + k) - factor(k)*y(k)*state%v(i0 + k)
+         end do
+         if (.not. allocated(ghosts%free)) return
+         do k = 1, n
+            ghosts%free%tilt(:, m0 + k) = -scale*inverse(k)*[sums%way_x(k), sums%way_y(k)]
+            ghosts%free%push(:, m0 + k) = factor(k)*[x(k), y(k)]
+            ghosts%free%area(:, m0 + k) = factor(k)*([sums%area_x(k), sums%area_y(k)] + sums%images(3:4, k))
+            ghosts%free%felt(:, m0 + k) = factor(k)*([sums%area_x(k), sums%area_y(k)] + sums%images(7:8, k))
+         end do
+      end associate
    end subroutine take_pressure
 
    !> Adds what solids give to the flow sums of a block, and the power that the fluid gets by that.
@@ -104,24 +133,28 @@ contains
       integer, intent(in) :: b                            !! number of the block
       class(flow_sums_t), intent(inout) :: sums
       real(dp), intent(out) :: power(block_groups)        !! [W/m] of each group
-      type(flow_sums_t) :: solid
-      integer :: g, i, k, n
+      real(dp), dimension(nl) :: divergence, force_x, force_y, gain
+      integer :: c, g, i, k, l
 
       power = 0
+      if (.not. near%ghosts%meets(b)) return
       associate (block => near%ghosts%near(b))
-         if (.not. near%ghosts%meets(b)) return
-         n = nl*block%n_clusters
-         call sum_solids(model%kernel, near%ghosts, b, state, solid)
-         do k = 1, n
+         do c = 1, block%n_clusters
+            if (block%first(c + 1) == block%first(c)) cycle
+            call sum_solids(model%kernel, near%ghosts, b, c, state, divergence, force_x, force_y)
+            k = (c - 1)*nl
             i = block%before + k
-            g = 1 + (k - 1)/group_slots
-            power(g) = power(g) - model%c0**2*model%kernel%gradient_factor*state%volume(i) &
-                       *(state%u(i)*solid%force_x(k) + state%v(i)*solid%force_y(k) + state%s(i)*solid%divergence(k))
+            !$omp simd
+            do l = 1, nl
+               sums%divergence(k + l) = sums%divergence(k + l) + divergence(l)
+               sums%force_x(k + l) = sums%force_x(k + l) + force_x(l)
+               sums%force_y(k + l) = sums%force_y(k + l) + force_y(l)
+               gain(l) = state%volume(i + l)*(state%u(i + l)*force_x(l) + state%v(i + l)*force_y(l) + state%s(i + l)*divergence(l))
+            end do
+            g = 1 + k/group_slots
+            power(g) = power(g) - model%c0**2*model%kernel%gradient_factor*sum(gain)
          end do
       end associate
-      sums%divergence(:n) = sums%divergence(:n) + solid%divergence(:n)
-      sums%force_x(:n) = sums%force_x(:n) + solid%force_x(:n)
-      sums%force_y(:n) = sums%force_y(:n) + solid%force_y(:n)
    end subroutine add_solids
 
    !> Adds what solids reflect to the velocity gradient of a block and to L of that.
