@@ -27,6 +27,7 @@ module box
       real(dp) :: centre(2) = 0   !! [m] that it turns about
    contains
       procedure :: at => inertia_at
+      procedure :: acts => inertia_acts
    end type inertia_t
 
    !> The sides in the order left, right, bottom, top, at one time.
@@ -72,6 +73,13 @@ contains
       arm = place - self%centre
       force = self%pull + self%spin**2*arm + self%spin_rate*[arm(2), -arm(1)] + 2*self%spin*[velocity(2), -velocity(1)]
    end function inertia_at
+
+   !> Whether the box is moved so that something acts.
+   pure logical function inertia_acts(self) result(acts)
+      class(inertia_t), intent(in) :: self
+
+      acts = any(abs([self%pull, self%spin, self%spin_rate]) > 0)
+   end function inertia_acts
 
    !> Velocity of each side along the axis that it is across [m/s].
    pure function normal_velocity(self) result(velocity)

@@ -5,7 +5,7 @@ module solid_lists
    use lanes, only: nl
    use particles, only: particles_t, state_t
    use solid_ghosts, only: solid_ghosts_t
-   use strip_extents, only: around, take_slack
+   use strip_extents, only: take_slack
    use strips, only: add_ranges, extent_t, group_slots, ranges_t, strips_t
    implicit none
    private
@@ -94,30 +94,21 @@ contains
       type(particles_t), intent(in) :: p
       type(state_t), intent(in) :: predicted
       real(dp), intent(in) :: travel, support
-      type(extent_t) :: group(block_groups), whole
+      type(extent_t) :: group
       type(ranges_t) :: own, mirrored
       integer, allocatable :: found(:)
-      logical :: alone   ! nothing is near the block: few blocks of the fluid are near solids
       integer :: g, i0, n_groups
 
       n_groups = nl*block%n_clusters/group_slots
       do g = 1, n_groups
-         group(g) = group_extent(p%id, predicted, p%base, block%before + (g - 1)*group_slots)
-         whole = around(whole, group(g))
-      end do
-      own%n = 0
-      mirrored%n = 0
-      call add_ranges(strips, whole, support, travel, own)
-      call add_ranges(images, whole, support, travel, mirrored)
-      alone = own%n + mirrored%n == 0
-      do g = 1, n_groups
          i0 = block%before + (g - 1)*group_slots
+         group = group_extent(p%id, predicted, p%base, i0)
          own%n = 0
          mirrored%n = 0
-         if (.not. alone) call add_ranges(strips, group(g), support, travel, own)
-         if (.not. alone) call add_ranges(images, group(g), support, travel, mirrored)
+         call add_ranges(strips, group, support, travel, own)
+         call add_ranges(images, group, support, travel, mirrored)
          call list_group(block, g, own, mirrored, p%capacity, predicted%x, predicted%y, p%base%u, p%base%v, predicted%volume, i0, &
-                         group(g), support, travel, found)
+                         group, support, travel, found)
       end do
       call trim_lists(block)
    end subroutine list_block

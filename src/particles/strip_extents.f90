@@ -6,7 +6,7 @@ module strip_extents
    implicit none
    private
 
-   public :: measure_strips, take_slack, around
+   public :: measure_strips, take_slack
 
 contains
 
@@ -69,13 +69,5 @@ contains
       !$omp end parallel do
       strips%overall%slack = maxval(strips%extent(:strips%n)%slack)
    end subroutine take_slack
-
-   !> What holds both of two.
-   pure type(extent_t) function around(one, other)
-      type(extent_t), intent(in) :: one, other
-
-      around = extent_t(min(one%lower, other%lower), max(one%upper, other%upper), min(one%slowest, other%slowest), &
-                        max(one%fastest, other%fastest), max(one%slack, other%slack))
-   end function around
 
 end module strip_extents

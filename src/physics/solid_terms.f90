@@ -68,7 +68,6 @@ contains
       real(dp), dimension(block_slots) :: inertia_x, inertia_y, inverse, factor, x, y, felt_x, felt_y
       real(dp) :: scale, force(2), slope_x, slope_y
       integer :: i0, k, m0, n
-      logical :: has_inertia
 
       associate (block => near%ghosts%fluid(b), ghosts => near%ghosts)
          n = nl*block%n_clusters
@@ -76,10 +75,9 @@ contains
          m0 = i0 - ghosts%before
          force = model%acceleration - [0.0_dp, model%gravity]
          scale = model%rho0/model%c0**2
-         has_inertia = any(abs([box%inertia%pull, box%inertia%spin, box%inertia%spin_rate]) > 0)
          inertia_x(:n) = 0
          inertia_y(:n) = 0
-         do k = 1, merge(n, 0, has_inertia)
+         do k = 1, merge(n, 0, box%inertia%acts())
             if (.not. sums%weight(k) > 0) cycle
             associate (a => box%inertia%at([state%x(i0 + k), state%y(i0 + k)], [state%u(i0 + k), state%v(i0 + k)]))
                inertia_x(k) = a(1)

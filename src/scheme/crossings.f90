@@ -24,18 +24,15 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: before(2), place(2), velocity(2), impulse(2), least(2), most(2), lower(2), upper(2), inertia(2), lifted
+      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), inertia(2), lifted
       integer :: i, k
 
-      call find_room(p, i0, n, least, most)
       lower = huge(lower)
       upper = -huge(upper)
       do k = 1, size(obstacles)
-         if (any(most < obstacles(k)%lower .or. least > obstacles(k)%upper)) cycle
          lower = min(lower, obstacles(k)%lower)
          upper = max(upper, obstacles(k)%upper)
       end do
-      if (any(lower > upper)) return
       do i = i0 + 1, i0 + n
          before = [p%next%x(i), p%next%y(i)]
          if (any(before < lower .or. before > upper) .or. p%id(i) == 0) cycle
@@ -57,31 +54,6 @@ contains
          call put(p, i, place, velocity)
       end do
    end subroutine leave_solids
-
-   ! Around a block's particles, without dummies, at the end of the step.
-   pure subroutine find_room(p, i0, n, least, most)
-      type(particles_t), intent(in) :: p
-      integer, intent(in) :: i0, n
-      real(dp), intent(out) :: least(2), most(2)
-      real(dp) :: left, right, bottom, top
-      integer :: i
-
-      left = huge(left)
-      right = -huge(right)
-      bottom = huge(bottom)
-      top = -huge(top)
-      associate (x => p%next%x(i0 + 1:i0 + n), y => p%next%y(i0 + 1:i0 + n), m => p%m(i0 + 1:i0 + n))
-         !$omp simd reduction(min:left, bottom) reduction(max:right, top)
-         do i = 1, n
-            left = min(left, x(i))
-            right = max(right, merge(x(i), -huge(1.0_dp), m(i) > 0))
-            bottom = min(bottom, y(i))
-            top = max(top, merge(y(i), -huge(1.0_dp), m(i) > 0))
-         end do
-      end associate
-      least = [left, bottom]
-      most = [right, top]
-   end subroutine find_room
 
    !> Puts back what left the box.
    pure subroutine cross_sides(model, box, p, i0, n, sums)

@@ -53,7 +53,7 @@ contains
          ahead = scheme%ahead(stage)*moment%dt
          sums%change(stage) = largest_change(n, now, p%sorted_u(i0 + 1:i0 + n), p%sorted_v(i0 + 1:i0 + n))
          call add_terms(model, p, i0, n, weight, now, rates, sums%work)
-         if (has_inertia(moment%box)) call add_inertia(moment%box, n, weight, now, rates, sums%work(:, 4))
+         if (moment%box%inertia%acts()) call add_inertia(moment%box, n, weight, now, rates, sums%work(:, 4))
          if (allocated(model%sponges)) call add_sponges(model%sponges, n, weight, now, rates, sums%sponge_work)
          if (model%has_solids()) sums%solid_work = sums%solid_work + weight*sums%solid_power
          if (stage == scheme%stages) then
@@ -183,13 +183,6 @@ contains
          work(g) = work(g) + weight*sum(quarter)
       end do
    end subroutine add_groups
-
-   ! Whether the box is moved.
-   pure logical function has_inertia(box)
-      type(box_t), intent(in) :: box
-
-      has_inertia = any(abs([box%inertia%pull, box%inertia%spin, box%inertia%spin_rate]) > 0)
-   end function has_inertia
 
    ! What acts because the box is moved.
    pure subroutine add_inertia(box, n, weight, now, rates, work)
