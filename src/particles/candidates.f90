@@ -75,27 +75,53 @@ contains
       integer, intent(in) :: c             !! cluster
       logical, intent(in) :: shared        !! else all pairs act
       real(dp), intent(in) :: part(:, :)   !! (nl, places in its list and more) only then
-      integer :: k, m, n
+      integer :: m, n, n_near
 
       if (shared .and. ubound(self%part, 2) < size(self%slot)) then
          deallocate (self%part)
          allocate (self%part(nl, 0:size(self%slot)), source=acts)
       end if
       self%shared(c) = shared
-      n = self%first(c) - 1
-      self%first_image(c) = self%first(c)
-      do k = self%all%first(c), self%all%first(c + 1) - 1
+      associate (all => self%all, first => self%first(c))
+         n_near = all%first(c + 1) - all%first(c)
+         m = all%first_image(c) - all%first(c)
+         n = n_near
          if (shared) then
-            m = k - self%all%first(c) + 1
-            if (.not. sum(part(:, m)) > 0) cycle
-            self%part(:, n + 1) = part(:, m)
+            call keep_acting(n_near, all%slot(all%first(c):), part, self%slot(first:), self%part(:, first:), m, n)
+         else
+            self%slot(first:first + n - 1) = all%slot(all%first(c):all%first(c) + n - 1)
          end if
-         n = n + 1
-         self%slot(n) = self%all%slot(k)
-         if (k < self%all%first_image(c)) self%first_image(c) = n + 1
-      end do
-      self%first(c + 1) = n + 1
+         self%first_image(c) = first + m
+         self%first(c + 1) = first + n
+      end associate
    end subroutine choose
+
+   ! Without a branch: what does not act is written, and written over.
+   pure subroutine keep_acting(n_near, slot, part, kept, kept_part, m, n)
+      integer, intent(in) :: n_near, slot(n_near)
+      real(dp), intent(in) :: part(nl, n_near)
+      integer, intent(inout) :: kept(n_near)
+      real(dp), intent(inout) :: kept_part(nl, n_near)
+      integer, intent(inout) :: m    ! of these before the first image; of those kept
+      integer, intent(out) :: n      ! kept
+      real(dp) :: most
+      integer :: k, l, images
+
+      n = 0
+      images = m + 1
+      do k = 1, n_near
+         if (k == images) m = n
+         kept(n + 1) = slot(k)
+         kept_part(:, n + 1) = part(:, k)
+         most = part(1, k)
+         !GCC$ unroll 8
+         do l = 2, nl
+            most = max(most, part(l, k))
+         end do
+         n = n + min(1, int(most))
+      end do
+      if (images > n_near) m = n
+   end subroutine keep_acting
 
    !> Where a group's particles are predicted, how fast they are, and their slack.
    pure type(extent_t) function group_extent(id, predicted, base, i0) result(group)

@@ -11,6 +11,7 @@ module solid_shares
    use particles, only: state_t
    use polygons, only: nearest_edge
    use solid_cells, only: turned_away
+   use solid_faces, only: edge_t, faces_of, faces_t, find_faces, hull, keep_only, meet, near_faces_t, only_before
    use solid_ghosts, only: solid_ghosts_t
    use solids, only: obstacle_t
    implicit none
@@ -22,28 +23,6 @@ module solid_shares
    real(dp), parameter :: flatter = 1.0e-6_dp, beside(2) = [0.6e-9_dp, 1.0e-9_dp]   ! more than rounding, less than matters
    real(dp), parameter :: slightly = 1.0e-3_dp   ! of the support: more than both
    real(dp), parameter :: nowhere = 2            ! on a way, where 1 is its end
-
-   ! A face of a solid.
-   type :: edge_t
-      integer :: number
-      real(dp) :: a(2), b(2), normal(2)
-      real(dp) :: room(4)                                ! around it: left, right, bottom, top
-   end type edge_t
-
-   ! Edges of all solids, one's behind the other's: its faces, then what is behind walls.
-   type :: faces_t
-      integer, allocatable :: first(:)                   ! (solids+1) where they begin
-      integer, allocatable :: last(:)                    ! (solids) where the faces end
-      type(edge_t), allocatable :: edge(:)
-      logical, allocatable :: convex(:)                  ! (solids)
-   end type faces_t
-
-   ! What each thread works with.
-   type :: scratch_t
-      real(dp), allocatable :: part(:, :)                ! (nl, places in the list and more) of a cluster
-      type(edge_t), allocatable :: edge(:)               ! (all faces)
-      integer :: n = 0                                   ! faces of a solid that ways may lead through
-   end type scratch_t
 
    ! The faces that the ways of a cluster lead through first.
    type :: crossed_t
@@ -61,35 +40,51 @@ contains
       type(box_t), intent(in) :: box               !! at any time
       real(dp), intent(in) :: support              !! of the kernel
       type(faces_t) :: faces
-      type(scratch_t) :: scratch
-      integer :: b, c
+      type(near_faces_t) :: scratch
+      real(dp), allocatable :: part(:, :)          ! (nl, places in the list and more) of a cluster
+      integer :: b, c, n
       logical :: mixed
 
       faces = faces_of(ghosts%obstacles)
-      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, mixed, scratch)
-      allocate (scratch%part(nl, 0), scratch%edge(size(faces%edge)))
+      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, n, mixed, scratch, part)
+      allocate (part(nl, 0), scratch%edge(size(faces%edge)))
       !$omp do schedule(dynamic)
       do b = 1, n_blocks
          if (.not. ghosts%meets(b)) cycle
          do c = 1, ghosts%near(b)%n_clusters
-            call share_of_fluid(ghosts, ghosts%near(b)%all, c, state, faces, box, reach*support, mixed, scratch)
-            call ghosts%near(b)%choose(c, mixed, scratch%part)
+            call take_room(ghosts%near(b)%all, c, part, n)
+            call share_of_fluid(ghosts, ghosts%near(b)%all, c, state, faces, box, reach*support, n, mixed, part, scratch)
+            call ghosts%near(b)%choose(c, mixed, part)
          end do
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, ghosts%n_blocks
          do c = 1, ghosts%fluid(b)%n_clusters
-            call share_of_ghosts(ghosts, ghosts%fluid(b)%all, c, state, faces, reach*support, mixed, scratch)
-            call ghosts%fluid(b)%choose(c, mixed, scratch%part)
+            call take_room(ghosts%fluid(b)%all, c, part, n)
+            call share_of_ghosts(ghosts, ghosts%fluid(b)%all, c, state, faces, reach*support, n, mixed, part, scratch)
+            call ghosts%fluid(b)%choose(c, mixed, part)
          end do
       end do
       !$omp end do
       !$omp end parallel
    end subroutine find_shares
 
+   ! Room for the list of a cluster.
+   pure subroutine take_room(block, c, part, n)
+      type(candidates_t), intent(in) :: block
+      integer, intent(in) :: c
+      real(dp), allocatable, intent(inout) :: part(:, :)
+      integer, intent(out) :: n   ! places in it
+
+      n = block%first(c + 1) - block%first(c)
+      if (size(part, 2) >= n) return
+      deallocate (part)
+      allocate (part(nl, n + n/4))
+   end subroutine take_room
+
    ! Of a cluster of the fluid and the ghosts near it.
-   pure subroutine share_of_fluid(ghosts, block, c, state, faces, box, support, mixed, scratch)
+   pure subroutine share_of_fluid(ghosts, block, c, state, faces, box, support, n, mixed, part, scratch)
       type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block         ! of the fluid
       integer, intent(in) :: c                        ! cluster
@@ -97,8 +92,10 @@ contains
       type(faces_t), intent(in) :: faces
       type(box_t), intent(in) :: box
       real(dp), intent(in) :: support                 ! farther pairs do not matter
+      integer, intent(in) :: n                        ! places in the list
       logical, intent(out) :: mixed                   ! some ghosts are not alone in their cells; parts are set only then
-      type(scratch_t), intent(inout) :: scratch
+      real(dp), intent(inout) :: part(nl, n)
+      type(near_faces_t), intent(inout) :: scratch
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: x, y, to_x, to_y, face, normal_x, normal_y
       real(dp) :: here(4), there(4), begin(4), sign(2), place(2), last(2), way(2)
@@ -106,12 +103,8 @@ contains
       logical :: mirrored, was_mirrored, is_other
 
       associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
-         mixed = .false.
-         do k = 1, size(near)
-            mixed = mixed .or. ghosts%face(near(k) - ghosts%before) > 0
-         end do
+         mixed = any_shares(n, near, ghosts%before, size(ghosts%face), ghosts%face)
          if (.not. mixed) return
-         call make_room(scratch%part, size(near))
          i0 = block%before + (c - 1)*nl
          x = state%x(i0 + 1:i0 + nl)
          y = state%y(i0 + 1:i0 + nl)
@@ -120,24 +113,36 @@ contains
          last = 0
          way = 0
          was_mirrored = .false.
-         do k = 1, size(near)
+         if (are_together(n, near, ghosts%before, ghosts%n_slots, ghosts%solid_of, ghosts%way)) then
+            number = ghosts%solid_of(near(1) - ghosts%before)
+            way = ghosts%way(:, near(1) - ghosts%before)
+            call find_faces(faces, number, here - way([1, 1, 2, 2]), support, scratch)
+            call keep_only(faces, number, x - way(1), y - way(2), slightly*support, scratch)
+            if (scratch%n == 1) then   ! no way leads through another
+               call take_parts_of(scratch%edge(1), ghosts%obstacles(number), n, near, ghosts%before, size(ghosts%face), &
+                                  ghosts%face, part)
+               return
+            end if
+         end if
+         do k = 1, n
             j = near(k)
             m = j - ghosts%before
             mirrored = m > ghosts%n_slots
             if (mirrored) m = ghosts%images%source(m - ghosts%n_slots) - ghosts%before
-            scratch%part(:, k) = acts
+            part(:, k) = acts
             if (ghosts%face(m) == 0) cycle
             associate (solid => ghosts%obstacles(ghosts%solid_of(m)))
-               is_other = number /= ghosts%solid_of(m) .or. any(abs(ghosts%way(:, m) - way) > 0) .or. (mirrored .neqv. was_mirrored)
+               is_other = number /= ghosts%solid_of(m) .or. any(abs(ghosts%way(:, m) - way) > 0) &
+                          .or. (mirrored .neqv. was_mirrored)
                number = ghosts%solid_of(m)
                way = ghosts%way(:, m)
                was_mirrored = mirrored
                if (is_other) call find_faces(faces, number, here - way([1, 1, 2, 2]), merge(huge(support), support, mirrored), &
                                              scratch)
                if (is_other .and. .not. mirrored) call keep_only(faces, number, x - way(1), y - way(2), slightly*support, scratch)
-               if (scratch%n == 1) then   ! no way leads through another
-                  scratch%part(:, k) = part_of(scratch%edge(1), ghosts%face(m), solid%normal(1, ghosts%face(m)), &
-                                                solid%normal(2, ghosts%face(m)))
+               if (scratch%n == 1) then
+                  part(:, k) = part_of(scratch%edge(1), ghosts%face(m), solid%normal(1, ghosts%face(m)), &
+                                       solid%normal(2, ghosts%face(m)))
                   cycle
                end if
                face = ghosts%face(m)
@@ -157,21 +162,74 @@ contains
                end if
                last = place
             end associate
-            call take_parts(crossed, face, normal_x, normal_y, scratch%part(:, k))
+            call take_parts(crossed, face, normal_x, normal_y, part(:, k))
          end do
       end associate
    end subroutine share_of_fluid
 
+   ! Whether some ghosts in a list are not alone in their cells.
+   pure logical function any_shares(n, near, before, n_ghosts, face)
+      integer, intent(in) :: n, near(n), before, n_ghosts, face(n_ghosts)
+      integer :: k, faces
+
+      faces = 0
+      !$omp simd reduction(ior:faces)
+      do k = 1, n
+         faces = ior(faces, face(near(k) - before))
+      end do
+      any_shares = faces > 0
+   end function any_shares
+
+   ! Whether the ghosts in a list are of one solid, moved alike in a periodic box, and none is an image: images come last.
+   pure logical function are_together(n, near, before, n_slots, solid_of, way) result(are)
+      integer, intent(in) :: n, near(n), before, n_slots, solid_of(n_slots)
+      real(dp), intent(in) :: way(2, n_slots)
+      real(dp) :: farthest
+      integer :: k, one, others
+
+      are = near(n) - before <= n_slots
+      if (.not. are) return
+      one = near(1) - before
+      others = 0
+      farthest = 0
+      !$omp simd reduction(ior:others) reduction(max:farthest)
+      do k = 1, n
+         others = ior(others, ieor(solid_of(near(k) - before), solid_of(one)))
+         farthest = max(farthest, abs(way(1, near(k) - before) - way(1, one)) + abs(way(2, near(k) - before) - way(2, one)))
+      end do
+      are = others == 0 .and. .not. farthest > 0
+   end function are_together
+
+   ! The parts of ghosts of one solid where all ways lead through one face.
+   pure subroutine take_parts_of(edge, solid, n, near, before, n_ghosts, face, part)
+      type(edge_t), intent(in) :: edge
+      type(obstacle_t), intent(in) :: solid
+      integer, intent(in) :: n, near(n), before, n_ghosts, face(n_ghosts)
+      real(dp), intent(out) :: part(nl, n)
+      real(dp) :: of_face(0:size(solid%normal, 2))
+      integer :: k
+
+      of_face(0) = acts
+      do k = 1, ubound(of_face, 1)
+         of_face(k) = part_of(edge, k, solid%normal(1, k), solid%normal(2, k))
+      end do
+      do k = 1, n
+         part(:, k) = of_face(face(near(k) - before))
+      end do
+   end subroutine take_parts_of
+
    ! Of a cluster of ghosts and the fluid near it.
-   pure subroutine share_of_ghosts(ghosts, block, c, state, faces, support, mixed, scratch)
+   pure subroutine share_of_ghosts(ghosts, block, c, state, faces, support, n, mixed, part, scratch)
       type(solid_ghosts_t), intent(in) :: ghosts
       type(candidates_t), intent(in) :: block         ! of ghosts
       integer, intent(in) :: c                        ! cluster
       type(state_t), intent(in) :: state
       type(faces_t), intent(in) :: faces
       real(dp), intent(in) :: support                 ! farther pairs do not matter
+      integer, intent(in) :: n                        ! places in the list
       logical, intent(out) :: mixed                   ! some ghosts are not alone in their cells; parts are set only then
-      type(scratch_t), intent(inout) :: scratch
+      real(dp), intent(inout) :: part(nl, n)
+      type(near_faces_t), intent(inout) :: scratch
       type(crossed_t) :: crossed
       real(dp), dimension(nl) :: to_x, to_y, shift_x, shift_y, face, normal_x, normal_y, of_solid
       real(dp) :: there(4), shifts(4), begin(4)
@@ -185,8 +243,7 @@ contains
       mixed = any(ghosts%face(m0 + 1:m0 + nl) > 0)
       if (.not. mixed) return
       associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
-         call make_room(scratch%part, size(near))
-         scratch%part(:, :size(near)) = acts
+         part = acts
          to_x = ghosts%place(1, m0 + 1:m0 + nl)
          to_y = ghosts%place(2, m0 + 1:m0 + nl)
          shift_x = to_x - state%x(i0 + 1:i0 + nl)
@@ -203,14 +260,14 @@ contains
                call find_faces(faces, number, there, support, scratch)
                together = faces%convex(number) .and. maxval(shifts([2, 4]) - shifts([1, 3])) < slightly*slightly*support
                last_only = 0
-               do k = 1, size(near)
+               do k = 1, n
                   only = 0
                   if (together) only = only_before(faces, number, scratch%edge(:scratch%n), &
                                                    [state%x(near(k)), state%y(near(k))] + shifts([1, 3]), slightly*support)
                   if (only > 0) then
                      if (only /= last_only) of_solid = part_of(scratch%edge(only), owner, normal_x, normal_y)
                      last_only = only
-                     scratch%part(:, k) = min(scratch%part(:, k), of_solid)
+                     part(:, k) = min(part(:, k), of_solid)
                      cycle
                   end if
                   last_only = 0
@@ -219,21 +276,12 @@ contains
                                     to_x + (state%x(near(k)) - state%x(i0 + 1:i0 + nl)), &
                                     to_y + (state%y(near(k)) - state%y(i0 + 1:i0 + nl)), to_x, to_y, crossed)
                   call take_parts(crossed, face, normal_x, normal_y, of_solid)
-                  scratch%part(:, k) = min(scratch%part(:, k), of_solid)
+                  part(:, k) = min(part(:, k), of_solid)
                end do
             end associate
          end do
       end associate
    end subroutine share_of_ghosts
-
-   pure subroutine make_room(part, n)
-      real(dp), allocatable, intent(inout) :: part(:, :)
-      integer, intent(in) :: n
-
-      if (size(part, 2) >= n) return
-      deallocate (part)
-      allocate (part(nl, n + n/4))
-   end subroutine make_room
 
    ! Faces of ghosts, 0 for those that are alone in their cells, and their normals.
    pure subroutine take_faces(solid, number, face, normal_x, normal_y)
@@ -251,57 +299,6 @@ contains
          normal_y(l) = solid%normal(2, number(l))
       end do
    end subroutine take_faces
-
-   ! The only one of some edges of a convex solid that a particle is before: ways from it lead in through this one. 0 where there
-   ! are others, or could be but for rounding, or edges that are no faces.
-   pure integer function only_before(faces, solid, edges, place, margin) result(only)
-      type(faces_t), intent(in) :: faces
-      integer, intent(in) :: solid
-      type(edge_t), intent(in) :: edges(:)      ! faces of it that ways may lead through
-      real(dp), intent(in) :: place(2), margin
-      real(dp) :: height
-      integer :: k
-
-      only = 0
-      do k = faces%last(solid) + 1, faces%first(solid + 1) - 1
-         if (height_over(faces%edge(k), place) > -margin) return
-      end do
-      do k = 1, size(edges)
-         height = height_over(edges(k), place)
-         if (height < -margin) cycle
-         if (height < margin .or. only > 0) then
-            only = 0
-            return
-         end if
-         only = k
-      end do
-   end function only_before
-
-   ! Of the faces that ways may lead through the only one, where it is the same for all particles of a cluster.
-   pure subroutine keep_only(faces, solid, x, y, margin, scratch)
-      type(faces_t), intent(in) :: faces
-      integer, intent(in) :: solid
-      real(dp), intent(in) :: x(nl), y(nl), margin
-      type(scratch_t), intent(inout) :: scratch
-      integer :: l, only
-
-      if (scratch%n < 2 .or. .not. faces%convex(solid)) return
-      only = only_before(faces, solid, scratch%edge(:scratch%n), [x(1), y(1)], margin)
-      if (only == 0) return
-      do l = 2, nl
-         if (only_before(faces, solid, scratch%edge(:scratch%n), [x(l), y(l)], margin) /= only) return
-      end do
-      scratch%edge(1) = scratch%edge(only)
-      scratch%n = 1
-   end subroutine keep_only
-
-   ! How far a place is before an edge; less than 0 behind it.
-   pure real(dp) function height_over(edge, place)
-      type(edge_t), intent(in) :: edge
-      real(dp), intent(in) :: place(2)
-
-      height_over = edge%normal(1)*(place(1) - edge%a(1)) + edge%normal(2)*(place(2) - edge%a(2))
-   end function height_over
 
    ! The parts of pairs whose ways lead through an edge.
    elemental real(dp) function part_of(edge, face, normal_x, normal_y)
@@ -366,80 +363,6 @@ contains
          crossed%normal_y(l) = normal(2)
       end do
    end subroutine find_crossed
-
-   ! The edges of all solids.
-   pure type(faces_t) function faces_of(solids) result(faces)
-      type(obstacle_t), intent(in) :: solids(:)
-      integer :: k, n, next, solid
-
-      allocate (faces%first(size(solids) + 1), faces%last(size(solids)), faces%convex(size(solids)))
-      allocate (faces%edge(sum([(size(solids(k)%is_face), k=1, size(solids))])))
-      n = 0
-      do solid = 1, size(solids)
-         faces%first(solid) = n + 1
-         call add_edges(solids(solid), .true., faces%edge, n)
-         faces%last(solid) = n
-         call add_edges(solids(solid), .false., faces%edge, n)
-         faces%convex(solid) = .true.
-         associate (normal => solids(solid)%normal)
-            do k = 1, size(normal, 2)
-               next = 1 + mod(k, size(normal, 2))
-               faces%convex(solid) = faces%convex(solid) .and. normal(1, k)*normal(2, next) - normal(2, k)*normal(1, next) >= 0
-            end do
-         end associate
-      end do
-      faces%first(size(solids) + 1) = n + 1
-   end function faces_of
-
-   ! Those edges of a solid that are faces, or the others.
-   pure subroutine add_edges(solid, faces, edge, n)
-      type(obstacle_t), intent(in) :: solid
-      logical, intent(in) :: faces
-      type(edge_t), intent(inout) :: edge(:)
-      integer, intent(inout) :: n               ! of all so far
-      integer :: k, next
-
-      do k = 1, size(solid%is_face)
-         if (solid%is_face(k) .neqv. faces) cycle
-         n = n + 1
-         next = 1 + mod(k, size(solid%is_face))
-         associate (a => solid%outline(:, k), b => solid%outline(:, next))
-            edge(n) = edge_t(k, a, b, solid%normal(:, k), hull(a([1, 1, 2, 2]), b([1, 1, 2, 2]), 0.0_dp))
-         end associate
-      end do
-   end subroutine add_edges
-
-   ! Those of a solid that are nearer to a room than `reach`, along the axes.
-   pure subroutine find_faces(faces, solid, room, reach, scratch)
-      type(faces_t), intent(in) :: faces
-      integer, intent(in) :: solid
-      real(dp), intent(in) :: room(4), reach
-      type(scratch_t), intent(inout) :: scratch   ! n, edge(:n)
-      integer :: k
-
-      scratch%n = 0
-      do k = faces%first(solid), faces%last(solid)
-         if (.not. meet(faces%edge(k)%room, room + reach*[-1, 1, -1, 1])) cycle
-         scratch%n = scratch%n + 1
-         scratch%edge(scratch%n) = faces%edge(k)
-      end do
-   end subroutine find_faces
-
-   ! The room around two others, and some more.
-   pure function hull(one, other, margin)
-      real(dp), intent(in) :: one(4), other(4)   ! left, right, bottom, top
-      real(dp), intent(in) :: margin
-      real(dp) :: hull(4)
-
-      hull = [min(one(1), other(1)) - margin, max(one(2), other(2)) + margin, &
-              min(one(3), other(3)) - margin, max(one(4), other(4)) + margin]
-   end function hull
-
-   pure logical function meet(one, other)
-      real(dp), intent(in) :: one(4), other(4)   ! left, right, bottom, top
-
-      meet = one(2) >= other(1) .and. one(1) <= other(2) .and. one(4) >= other(3) .and. one(3) <= other(4)
-   end function meet
 
    ! Takes an edge for ways that lead through it before they do through others. Without a branch, or it would not be vectorised.
    pure subroutine cross_edge(edge, from_x, from_y, to_x, to_y, first, crossed)

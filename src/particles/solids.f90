@@ -35,6 +35,7 @@ module solids
       real(dp) :: lower(2) = 0, upper(2) = 0   !! [m] around it
    contains
       procedure :: velocity_at
+      procedure :: covers
       procedure :: reaches_through
    end type obstacle_t
 
@@ -145,6 +146,15 @@ contains
       velocity = self%pose%velocity + self%pose%spin*[self%pivot(2) - place(2), place(1) - self%pivot(1)]
    end function velocity_at
 
+   !> Whether a point is in it.
+   pure logical function covers(self, place)
+      class(obstacle_t), intent(in) :: self
+      real(dp), intent(in) :: place(2)
+
+      covers = all(place >= self%lower .and. place <= self%upper)
+      if (covers) covers = is_inside(self%outline, place)
+   end function covers
+
    !> Which walls the solid reaches through.
    pure function reaches_through(self, box) result(through)
       class(obstacle_t), intent(in) :: self
@@ -169,8 +179,7 @@ contains
       real(dp), intent(in) :: place(2)
 
       do number = 1, size(obstacles)
-         if (any(place < obstacles(number)%lower .or. place > obstacles(number)%upper)) cycle
-         if (is_inside(obstacles(number)%outline, place)) return
+         if (obstacles(number)%covers(place)) return
       end do
       number = 0
    end function cover

@@ -7,7 +7,7 @@ module crossings
    use kinds, only: dp
    use model, only: model_t
    use particles, only: particles_t
-   use solids, only: cover, obstacle_t, push_out
+   use solids, only: obstacle_t, push_out
    use strips, only: group_slots
    implicit none
    private
@@ -24,20 +24,14 @@ contains
       type(particles_t), intent(inout) :: p
       integer, intent(in) :: i0, n
       type(block_t), intent(inout) :: sums
-      real(dp) :: before(2), place(2), velocity(2), impulse(2), lower(2), upper(2), inertia(2), lifted
-      integer :: i, k
+      real(dp) :: before(2), place(2), velocity(2), impulse(2), inertia(2), lifted
+      integer :: covered_by(n), i, k
 
-      lower = huge(lower)
-      upper = -huge(upper)
-      do k = 1, size(obstacles)
-         lower = min(lower, obstacles(k)%lower)
-         upper = max(upper, obstacles(k)%upper)
-      end do
+      call find_covered(obstacles, n, p%next%x(i0 + 1:i0 + n), p%next%y(i0 + 1:i0 + n), covered_by)
       do i = i0 + 1, i0 + n
+         k = covered_by(i - i0)
+         if (k == 0 .or. p%id(i) == 0) cycle
          before = [p%next%x(i), p%next%y(i)]
-         if (any(before < lower .or. before > upper) .or. p%id(i) == 0) cycle
-         k = cover(obstacles, before)
-         if (k == 0) cycle
          place = before
          velocity = [p%next%u(i), p%next%v(i)]
          inertia = box%inertia%at(before, velocity)
@@ -54,6 +48,33 @@ contains
          call put(p, i, place, velocity)
       end do
    end subroutine leave_solids
+
+   ! The first obstacle that each place is in; 0 if there is none. Most blocks are beside the rooms around all obstacles.
+   pure subroutine find_covered(obstacles, n, x, y, number)
+      type(obstacle_t), intent(in) :: obstacles(:)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)
+      integer, intent(out) :: number(n)
+      real(dp) :: least_x, most_x, least_y, most_y
+      integer :: i, k
+
+      least_x = huge(least_x); most_x = -huge(most_x); least_y = huge(least_y); most_y = -huge(most_y)
+      !$omp simd reduction(min:least_x, least_y) reduction(max:most_x, most_y)
+      do i = 1, n
+         least_x = min(least_x, x(i))
+         most_x = max(most_x, x(i))
+         least_y = min(least_y, y(i))
+         most_y = max(most_y, y(i))
+         number(i) = 0
+      end do
+      do k = 1, size(obstacles)
+         if (any([least_x, least_y] > obstacles(k)%upper .or. [most_x, most_y] < obstacles(k)%lower)) cycle
+         do i = 1, n
+            if (number(i) > 0) cycle
+            if (obstacles(k)%covers([x(i), y(i)])) number(i) = k
+         end do
+      end do
+   end subroutine find_covered
 
    !> Puts back what left the box.
    pure subroutine cross_sides(model, box, p, i0, n, sums)

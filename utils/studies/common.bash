@@ -51,7 +51,7 @@ stamp() {
 publish() {
    {
       printf '# %s\n\nWritten by `%s` with\n\n' "$2" "$command"
-      sed 's/^/- /' "${4:-$out/made_with}"
+      awk '!seen[$0]++ { print "- " $0 }' "${4:-$out/made_with}"   # two runs that begin together may both have written a line
       echo
       sed '1{/^$/d}' "$3"
    } >"$out/$1.md"
