@@ -41,47 +41,41 @@ contains
       real(dp), intent(in) :: support              !! of the kernel
       type(faces_t) :: faces
       type(near_faces_t) :: scratch
-      real(dp), allocatable :: part(:, :)          ! (nl, places in the list and more) of a cluster
-      integer :: b, c, n
+      integer :: b, c, i, n
       logical :: mixed
 
       faces = faces_of(ghosts%obstacles)
-      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, n, mixed, scratch, part)
-      allocate (part(nl, 0), scratch%edge(size(faces%edge)))
+      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, i, n, mixed, scratch)
+      allocate (scratch%edge(size(faces%edge)))
       !$omp do schedule(dynamic)
       do b = 1, n_blocks
          if (.not. ghosts%meets(b)) cycle
-         do c = 1, ghosts%near(b)%n_clusters
-            call take_room(ghosts%near(b)%all, c, part, n)
-            call share_of_fluid(ghosts, ghosts%near(b)%all, c, state, faces, box, reach*support, n, mixed, part, scratch)
-            call ghosts%near(b)%choose(c, mixed, part)
-         end do
+         associate (block => ghosts%near(b))
+            call block%make_parts()
+            do c = 1, block%n_clusters
+               call block%next_list(c, i, n)
+               call share_of_fluid(ghosts, block%all, c, state, faces, box, reach*support, n, mixed, &
+                                   block%part(:, i:i + n - 1), scratch)
+               call block%choose(c, mixed)
+            end do
+         end associate
       end do
       !$omp end do
       !$omp do schedule(dynamic)
       do b = 1, ghosts%n_blocks
-         do c = 1, ghosts%fluid(b)%n_clusters
-            call take_room(ghosts%fluid(b)%all, c, part, n)
-            call share_of_ghosts(ghosts, ghosts%fluid(b)%all, c, state, faces, reach*support, n, mixed, part, scratch)
-            call ghosts%fluid(b)%choose(c, mixed, part)
-         end do
+         associate (block => ghosts%fluid(b))
+            call block%make_parts()
+            do c = 1, block%n_clusters
+               call block%next_list(c, i, n)
+               call share_of_ghosts(ghosts, block%all, c, state, faces, reach*support, n, mixed, &
+                                    block%part(:, i:i + n - 1), scratch)
+               call block%choose(c, mixed)
+            end do
+         end associate
       end do
       !$omp end do
       !$omp end parallel
    end subroutine find_shares
-
-   ! Room for the list of a cluster.
-   pure subroutine take_room(block, c, part, n)
-      type(candidates_t), intent(in) :: block
-      integer, intent(in) :: c
-      real(dp), allocatable, intent(inout) :: part(:, :)
-      integer, intent(out) :: n   ! places in it
-
-      n = block%first(c + 1) - block%first(c)
-      if (size(part, 2) >= n) return
-      deallocate (part)
-      allocate (part(nl, n + n/4))
-   end subroutine take_room
 
    ! Of a cluster of the fluid and the ghosts near it.
    pure subroutine share_of_fluid(ghosts, block, c, state, faces, box, support, n, mixed, part, scratch)
@@ -100,7 +94,7 @@ contains
       real(dp), dimension(nl) :: x, y, to_x, to_y, face, normal_x, normal_y
       real(dp) :: here(4), there(4), begin(4), sign(2), place(2), last(2), way(2)
       integer :: i0, j, k, m, number
-      logical :: mirrored, was_mirrored, is_other
+      logical :: mirrored, was_mirrored, is_other, done
 
       associate (near => block%slot(block%first(c):block%first(c + 1) - 1))
          mixed = any_shares(n, near, ghosts%before, size(ghosts%face), ghosts%face)
@@ -113,17 +107,8 @@ contains
          last = 0
          way = 0
          was_mirrored = .false.
-         if (are_together(n, near, ghosts%before, ghosts%n_slots, ghosts%solid_of, ghosts%way)) then
-            number = ghosts%solid_of(near(1) - ghosts%before)
-            way = ghosts%way(:, near(1) - ghosts%before)
-            call find_faces(faces, number, here - way([1, 1, 2, 2]), support, scratch)
-            call keep_only(faces, number, x - way(1), y - way(2), slightly*support, scratch)
-            if (scratch%n == 1) then   ! no way leads through another
-               call take_parts_of(scratch%edge(1), ghosts%obstacles(number), n, near, ghosts%before, size(ghosts%face), &
-                                  ghosts%face, part)
-               return
-            end if
-         end if
+         call share_at_once(ghosts, n, near, faces, x, y, here, support, done, part, scratch)
+         if (done) return
          do k = 1, n
             j = near(k)
             m = j - ghosts%before
@@ -166,6 +151,30 @@ contains
          end do
       end associate
    end subroutine share_of_fluid
+
+   ! The same where all ghosts are of one solid, of which ways can lead through one face only.
+   pure subroutine share_at_once(ghosts, n, near, faces, x, y, here, support, done, part, scratch)
+      type(solid_ghosts_t), intent(in) :: ghosts
+      integer, intent(in) :: n, near(n)
+      type(faces_t), intent(in) :: faces
+      real(dp), intent(in) :: x(nl), y(nl), here(4)   ! of the fluid; the room around it
+      real(dp), intent(in) :: support
+      logical, intent(out) :: done                    ! parts are set only then
+      real(dp), intent(inout) :: part(nl, n)
+      type(near_faces_t), intent(inout) :: scratch
+      real(dp) :: way(2)
+
+      done = are_together(n, near, ghosts%before, ghosts%n_slots, ghosts%solid_of, ghosts%way)
+      if (.not. done) return
+      associate (first => near(1) - ghosts%before)
+         way = ghosts%way(:, first)
+         call find_faces(faces, ghosts%solid_of(first), here - way([1, 1, 2, 2]), support, scratch)
+         call keep_only(faces, ghosts%solid_of(first), x - way(1), y - way(2), slightly*support, scratch)
+         done = scratch%n == 1
+         if (done) call take_parts_of(scratch%edge(1), ghosts%obstacles(ghosts%solid_of(first)), n, near, ghosts%before, &
+                                      size(ghosts%face), ghosts%face, part)
+      end associate
+   end subroutine share_at_once
 
    ! Whether some ghosts in a list are not alone in their cells.
    pure logical function any_shares(n, near, before, n_ghosts, face)
