@@ -36,8 +36,6 @@ module candidates
    contains
       procedure :: bytes => shared_candidates_bytes
       procedure :: parts
-      procedure :: make_parts
-      procedure :: next_list
       procedure :: choose
    end type shared_candidates_t
 
@@ -71,73 +69,58 @@ contains
       if (self%shared(c)) parts = [self%first(c), self%first(c + 1) - 1]
    end function parts
 
-   !> Room for the parts of all pairs of the block.
-   pure subroutine make_parts(self)
-      class(shared_candidates_t), intent(inout) :: self
-
-      if (ubound(self%part, 2) >= size(self%slot)) return
-      deallocate (self%part)
-      allocate (self%part(nl, 0:size(self%slot)), source=acts)
-   end subroutine make_parts
-
-   !> Where in `part` those of a cluster are set before `choose`: after what was chosen for the clusters before.
-   pure subroutine next_list(self, c, first, n)
-      class(shared_candidates_t), intent(in) :: self
-      integer, intent(in) :: c             !! cluster
-      integer, intent(out) :: first        !! place
-      integer, intent(out) :: n            !! places: one for each in its list of all
-
-      first = self%first(c)
-      n = self%all%first(c + 1) - self%all%first(c)
-   end subroutine next_list
-
-   !> Takes from all lists that of a cluster, but what does not act on any of its lanes.
-   pure subroutine choose(self, c, shared)
+   !> Takes from all lists that of a cluster, after those of the clusters before it, but what does not act on any of its lanes.
+   pure subroutine choose(self, c, shared, part)
       class(shared_candidates_t), intent(inout) :: self
       integer, intent(in) :: c             !! cluster
       logical, intent(in) :: shared        !! else all pairs act
-      integer :: first, m, n
+      real(dp), intent(in) :: part(:, :)   !! (nl, places in its list and more) only then
+      integer :: m, n, n_near
 
+      if (shared .and. ubound(self%part, 2) < size(self%slot)) then
+         deallocate (self%part)
+         allocate (self%part(nl, 0:size(self%slot)), source=acts)
+      end if
       self%shared(c) = shared
-      call self%next_list(c, first, n)
-      associate (all => self%all)
+      associate (all => self%all, first => self%first(c))
+         n_near = all%first(c + 1) - all%first(c)
          m = all%first_image(c) - all%first(c)
+         n = n_near
          if (shared) then
-            call keep_acting(n, all%slot(all%first(c):), self%slot(first:), self%part(:, first:), m)
+            call keep_acting(n_near, all%slot(all%first(c):), part, self%slot(first:), self%part(:, first:), m, n)
          else
             self%slot(first:first + n - 1) = all%slot(all%first(c):all%first(c) + n - 1)
          end if
+         self%first_image(c) = first + m
+         self%first(c + 1) = first + n
       end associate
-      self%first_image(c) = first + m
-      self%first(c + 1) = first + n
    end subroutine choose
 
    ! Without a branch: what does not act is written, and written over.
-   pure subroutine keep_acting(n, slot, kept, part, m)
-      integer, intent(inout) :: n    ! in the list; kept of them,
-      integer, intent(inout) :: m    ! and before the first image
-      integer, intent(in) :: slot(n)
-      integer, intent(inout) :: kept(n)
-      real(dp), intent(inout) :: part(nl, n)
-      real(dp) :: one(nl), most
-      integer :: k, l, images, place
+   pure subroutine keep_acting(n_near, slot, part, kept, kept_part, m, n)
+      integer, intent(in) :: n_near, slot(n_near)
+      real(dp), intent(in) :: part(nl, n_near)
+      integer, intent(inout) :: kept(n_near)
+      real(dp), intent(inout) :: kept_part(nl, n_near)
+      integer, intent(inout) :: m    ! of these before the first image; of those kept
+      integer, intent(out) :: n      ! kept
+      real(dp) :: most
+      integer :: k, l, images
 
-      place = 0
+      n = 0
       images = m + 1
-      do k = 1, n
-         if (k == images) m = place
-         kept(place + 1) = slot(k)
-         one = part(:, k)
-         part(:, place + 1) = one
-         most = one(1)
+      do k = 1, n_near
+         if (k == images) m = n
+         kept(n + 1) = slot(k)
+         kept_part(:, n + 1) = part(:, k)
+         most = part(1, k)
          !GCC$ unroll 8
          do l = 2, nl
-            most = max(most, one(l))
+            most = max(most, part(l, k))
          end do
-         place = place + min(1, int(most))
+         n = n + min(1, int(most))
       end do
-      if (images > n) m = place
-      n = place
+      if (images > n_near) m = n
    end subroutine keep_acting
 
    !> Where a group's particles are predicted, how fast they are, and their slack.

@@ -96,7 +96,7 @@ contains
    !> The room around two others, and some more.
    pure function hull(one, other, margin)
       real(dp), intent(in) :: one(4), other(4)   !! left, right, bottom, top
-      real(dp), intent(in) :: margin               !! [m]
+      real(dp), intent(in) :: margin             !! [m]
       real(dp) :: hull(4)
 
       hull = [min(one(1), other(1)) - margin, max(one(2), other(2)) + margin, &

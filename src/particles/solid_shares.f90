@@ -41,22 +41,21 @@ contains
       real(dp), intent(in) :: support              !! of the kernel
       type(faces_t) :: faces
       type(near_faces_t) :: scratch
-      integer :: b, c, i, n
+      real(dp), allocatable :: part(:, :)          ! (nl, places in the list and more) of a cluster
+      integer :: b, c, n
       logical :: mixed
 
       faces = faces_of(ghosts%obstacles)
-      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, i, n, mixed, scratch)
-      allocate (scratch%edge(size(faces%edge)))
+      !$omp parallel default(none) shared(ghosts, n_blocks, state, box, support, faces) private(c, n, mixed, scratch, part)
+      allocate (part(nl, 0), scratch%edge(size(faces%edge)))
       !$omp do schedule(dynamic)
       do b = 1, n_blocks
          if (.not. ghosts%meets(b)) cycle
          associate (block => ghosts%near(b))
-            call block%make_parts()
             do c = 1, block%n_clusters
-               call block%next_list(c, i, n)
-               call share_of_fluid(ghosts, block%all, c, state, faces, box, reach*support, n, mixed, &
-                                   block%part(:, i:i + n - 1), scratch)
-               call block%choose(c, mixed)
+               call take_room(block%all, c, part, n)
+               call share_of_fluid(ghosts, block%all, c, state, faces, box, reach*support, n, mixed, part, scratch)
+               call block%choose(c, mixed, part)
             end do
          end associate
       end do
@@ -64,18 +63,29 @@ contains
       !$omp do schedule(dynamic)
       do b = 1, ghosts%n_blocks
          associate (block => ghosts%fluid(b))
-            call block%make_parts()
             do c = 1, block%n_clusters
-               call block%next_list(c, i, n)
-               call share_of_ghosts(ghosts, block%all, c, state, faces, reach*support, n, mixed, &
-                                    block%part(:, i:i + n - 1), scratch)
-               call block%choose(c, mixed)
+               call take_room(block%all, c, part, n)
+               call share_of_ghosts(ghosts, block%all, c, state, faces, reach*support, n, mixed, part, scratch)
+               call block%choose(c, mixed, part)
             end do
          end associate
       end do
       !$omp end do
       !$omp end parallel
    end subroutine find_shares
+
+   ! Room for the list of a cluster.
+   pure subroutine take_room(block, c, part, n)
+      type(candidates_t), intent(in) :: block
+      integer, intent(in) :: c
+      real(dp), allocatable, intent(inout) :: part(:, :)
+      integer, intent(out) :: n   ! places in it
+
+      n = block%first(c + 1) - block%first(c)
+      if (size(part, 2) >= n) return
+      deallocate (part)
+      allocate (part(nl, n + n/4))
+   end subroutine take_room
 
    ! Of a cluster of the fluid and the ghosts near it.
    pure subroutine share_of_fluid(ghosts, block, c, state, faces, box, support, n, mixed, part, scratch)
